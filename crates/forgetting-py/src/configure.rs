@@ -1,0 +1,108 @@
+//! An estimator from the arguments of `RLS`.
+
+use crate::arrays::{with_slice, Array, Number};
+use crate::choice::{shape_of, Choice};
+use crate::errors::{invalid, raise};
+use forgetting::parameter::Parameter;
+use forgetting::rates::{AnyRate, RATES};
+use forgetting::rules::{Rule, RULES};
+use forgetting::saved::AnyEstimator;
+use forgetting::weighting::{AnyWeighting, WEIGHTINGS};
+use forgetting::{Dynamic, Estimator, Memory, Prior};
+use pyo3::prelude::*;
+
+/// Makes an estimator from Python's arguments.
+pub fn make<T: Number>(
+    (parameters, rows, targets): (usize, usize, usize),
+    rule: Option<Array<'_, '_>>,
+    weighting: Option<Array<'_, '_>>,
+    (covariance, theta): (Option<Array<'_, '_>>, Option<Array<'_, '_>>),
+) -> PyResult<AnyEstimator<T>> {
+    let memory = Dynamic::<T>::new(parameters, rows, targets).map_err(raise)?;
+    let (rule, rate) = read_rule(rule, memory)?;
+    let weighting = match weighting {
+        None => Choice::with_number("equal", "", 0.0),
+        Some(object) => Choice::read("weighting", object)?,
+    };
+    let known = WEIGHTINGS.iter().find(|about| about.name == weighting.name);
+    let known = known.map(|about| about.parameters).filter(|_| weighting.name != "equal");
+    let weighting = weighting
+        .make("weighting", known, |name, values| AnyWeighting::named(name, values, memory))?;
+    let prior = read_prior(memory, covariance)?;
+    let prior = match theta {
+        None => prior,
+        Some(theta) => prior.with_theta(&read_theta(memory, theta)?).map_err(raise)?,
+    };
+    Ok(Estimator::new(rule, rate, weighting, prior))
+}
+
+type RuleAndRate<T> = (Rule<Dynamic<T>>, AnyRate<Dynamic<T>>);
+
+/// The rule, and the rate that its `forgetting_factor` names.
+fn read_rule<T: Number>(
+    object: Option<Array<'_, '_>>,
+    memory: Dynamic<T>,
+) -> PyResult<RuleAndRate<T>> {
+    let choice = match object {
+        None => Choice::with_number("subspace", "threshold", 1e-6),
+        Some(object) => Choice::read("rule", object)?,
+    };
+    let about = RULES.iter().find(|about| about.name == choice.name);
+    let rule = choice.make("rule", about.map(|about| about.parameters), |name, values| {
+        Rule::named(name, values, memory)
+    })?;
+    if let Some(limit) = about.and_then(|about| about.largest_rows) {
+        if memory.rows() > limit {
+            let rows = memory.rows();
+            return Err(invalid(format!("rows = {rows}, allowed with {}: {limit}", choice.name)));
+        }
+    }
+    let factor = object.and_then(|object| object.getattr_opt("forgetting_factor").ok().flatten());
+    let rate = match factor {
+        None => constant(0.99),
+        Some(factor) if factor.is_none() => constant(0.99),
+        Some(factor) => match factor.extract::<f64>() {
+            Ok(number) => constant(number),
+            Err(_) => Choice::read("forgetting_factor", &factor)?,
+        },
+    };
+    let known: Option<&[Parameter]> =
+        RATES.iter().find(|about| about.name == rate.name).map(|about| about.parameters);
+    let rate = rate.make("rate", known, |name, values| AnyRate::named(name, values, memory))?;
+    Ok((rule, rate))
+}
+
+fn constant(forgetting_factor: f64) -> Choice {
+    Choice::with_number("constant", "forgetting_factor", forgetting_factor)
+}
+
+fn read_prior<T: Number>(
+    memory: Dynamic<T>,
+    covariance: Option<Array<'_, '_>>,
+) -> PyResult<Prior<Dynamic<T>>> {
+    let Some(given) = covariance else {
+        return Prior::scalar(memory, T::from_f64(100.0)).map_err(raise);
+    };
+    let dimensions = shape_of("initial_covariance", given)?.len();
+    with_slice("initial_covariance", given, |values| {
+        match (dimensions, values) {
+            (0, [variance]) => Prior::scalar(memory, *variance),
+            (1, values) => Prior::diagonal(memory, values),
+            (_, values) => Prior::dense(memory, values),
+        }
+        .map_err(raise)
+    })
+}
+
+/// (n,) or (n, targets) as targets x n.
+fn read_theta<T: Number>(memory: Dynamic<T>, theta: Array<'_, '_>) -> PyResult<Vec<T>> {
+    let (n, m) = (memory.parameters(), memory.targets());
+    let shape = shape_of("initial_theta", theta)?;
+    if shape != [n, m] && !(m == 1 && shape == [n]) {
+        let wanted = if m == 1 { format!("({n},)") } else { format!("({n}, {m})") };
+        return Err(invalid(format!("initial_theta has shape {shape:?}, expected {wanted}")));
+    }
+    with_slice("initial_theta", theta, |values: &[T]| {
+        Ok((0..m).flat_map(|t| (0..n).map(move |i| values[i * m + t])).collect())
+    })
+}

@@ -1,0 +1,30 @@
+//! The Python module `forgetting._core`: it converts between Python and the crate `forgetting`,
+//! and does nothing else.
+
+mod arrays;
+mod choice;
+mod configure;
+mod errors;
+mod outputs;
+mod record;
+mod registry;
+mod results;
+mod rls;
+mod sample;
+mod update;
+
+use pyo3::prelude::*;
+
+#[pymodule]
+fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<rls::Rls>()?;
+    module.add_class::<update::Update>()?;
+    module.add_class::<outputs::Run>()?;
+    module.add("InvalidInput", module.py().get_type::<errors::InvalidInput>())?;
+    module.add("NumericalRange", module.py().get_type::<errors::NumericalRange>())?;
+    module.add("SKIPPED", registry::skip_codes(module.py())?)?;
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add_function(wrap_pyfunction!(registry::rules, module)?)?;
+    module.add_function(wrap_pyfunction!(registry::rates, module)?)?;
+    module.add_function(wrap_pyfunction!(registry::weightings, module)?)
+}

@@ -1,0 +1,131 @@
+//! A whole record in one call, without Python in the loop.
+
+use crate::arrays::{contiguous, Array, Number};
+use crate::errors::{invalid, raise_at};
+use crate::outputs::{Outputs, Run, Sizes};
+use forgetting::saved::AnyEstimator;
+use forgetting::{Error, Memory, Noise};
+use numpy::PyArrayMethods;
+use pyo3::prelude::*;
+
+/// Γ of a record: the same for all samples, or one a sample.
+enum RecordNoise<'a, T> {
+    Unit,
+    Scalar(T),
+    Full(&'a [T]),
+    Scalars(&'a [T]),
+    Fulls(&'a [T]),
+}
+
+impl<T: Number> RecordNoise<'_, T> {
+    fn at(&self, sample: usize, rows: usize) -> Noise<'_, T> {
+        match self {
+            Self::Unit => Noise::Unit,
+            Self::Scalar(gamma) => Noise::Scalar(*gamma),
+            Self::Full(gamma) => Noise::Full(gamma),
+            Self::Scalars(gammas) => Noise::Scalar(gammas[sample]),
+            Self::Fulls(gammas) => {
+                Noise::Full(&gammas[sample * rows * rows..(sample + 1) * rows * rows])
+            }
+        }
+    }
+}
+
+/// All samples of a record, without the interpreter.
+pub fn run<T: Number>(
+    py: Python<'_>,
+    estimator: &mut AnyEstimator<T>,
+    (phi, y, gamma): (Array<'_, '_>, Array<'_, '_>, Option<Array<'_, '_>>),
+    outputs: &[String],
+    skip: bool,
+) -> PyResult<Run> {
+    let memory = estimator.prior().memory();
+    let (n, p, m) = (memory.parameters(), memory.rows(), memory.targets());
+    let phi = contiguous::<T>("phi", phi)?.readonly();
+    let y = contiguous::<T>("y", y)?.readonly();
+    let gamma = gamma.map(|gamma| contiguous::<T>("gamma", gamma)).transpose()?;
+    let gamma = gamma.as_ref().map(|gamma| gamma.readonly());
+    let samples = phi.as_array().shape().first().copied().unwrap_or(0);
+    check_shape("phi", phi.as_array().shape(), samples, &[p, n])?;
+    check_shape("y", y.as_array().shape(), samples, &[p, m])?;
+    let sizes = Sizes { samples, parameters: n, rows: p, targets: m };
+    let mut outputs = Outputs::<T>::named(outputs, sizes)?;
+    let (phi, y) = (phi.as_slice()?, y.as_slice()?);
+    let noise = match &gamma {
+        None => RecordNoise::Unit,
+        Some(gamma) => read_noise(gamma.as_array().shape(), gamma.as_slice()?, samples, p)?,
+    };
+    py.detach(|| update_all(estimator, phi, y, &noise, skip, &mut outputs))?;
+    outputs.finish(py, sizes)
+}
+
+/// Refuses a shape other than `samples` times `sample`, dimensions of 1 left out or not.
+fn check_shape(name: &str, shape: &[usize], samples: usize, sample: &[usize; 2]) -> PyResult<()> {
+    let elided = |s: &[usize]| s.iter().copied().filter(|&d| d != 1).collect::<Vec<_>>();
+    let fits = shape.first() == Some(&samples)
+        && elided(&shape[1..]) == elided(sample)
+        && shape.len() <= 3;
+    if fits {
+        return Ok(());
+    }
+    let [p, n] = sample;
+    Err(invalid(format!("{name} has shape {shape:?}, expected ({samples}, {p}, {n}) or less ones")))
+}
+
+fn read_noise<'a, T: Number>(
+    shape: &[usize],
+    gamma: &'a [T],
+    samples: usize,
+    p: usize,
+) -> PyResult<RecordNoise<'a, T>> {
+    match *shape {
+        [] => Ok(RecordNoise::Scalar(gamma[0])),
+        [t] if t == samples => Ok(RecordNoise::Scalars(gamma)),
+        [a, b] if (a, b) == (p, p) => Ok(RecordNoise::Full(gamma)),
+        [t, a, b] if (t, a, b) == (samples, p, p) => Ok(RecordNoise::Fulls(gamma)),
+        _ => Err(invalid(format!(
+            "gamma has shape {shape:?}, expected (), ({p}, {p}), ({samples},) or \
+             ({samples}, {p}, {p})"
+        ))),
+    }
+}
+
+/// Updates `estimator` with every sample; on an error it is as it was before the first.
+fn update_all<T: Number>(
+    estimator: &mut AnyEstimator<T>,
+    phi: &[T],
+    y: &[T],
+    noise: &RecordNoise<'_, T>,
+    skip_missing: bool,
+    outputs: &mut Outputs<T>,
+) -> PyResult<()> {
+    let before = estimator.clone();
+    samples(estimator, phi, y, noise, skip_missing, outputs).map_err(|(sample, error)| {
+        *estimator = before;
+        raise_at(error, Some(sample))
+    })
+}
+
+fn samples<T: Number>(
+    estimator: &mut AnyEstimator<T>,
+    phi: &[T],
+    y: &[T],
+    noise: &RecordNoise<'_, T>,
+    skip_missing: bool,
+    outputs: &mut Outputs<T>,
+) -> Result<(), (usize, Error)> {
+    let memory = estimator.prior().memory();
+    let (n, p, m) = (memory.parameters(), memory.rows(), memory.targets());
+    let missing = |values: &[T]| values.iter().any(|x| x.to_f64().is_nan());
+    for (k, (phi, y)) in phi.chunks_exact(p * n).zip(y.chunks_exact(p * m)).enumerate() {
+        if skip_missing && (missing(phi) || missing(y)) {
+            outputs.note_missing(p * m);
+        } else {
+            let update =
+                estimator.update_weighted(phi, y, noise.at(k, p)).map_err(|error| (k, error))?;
+            outputs.note(&update);
+        }
+        outputs.note_state(estimator);
+    }
+    Ok(())
+}

@@ -1,0 +1,96 @@
+//! What an estimator holds, for Python.
+
+use crate::arrays::{shaped, with_slice, Array, Number};
+use crate::choice::{shape_of, write_value};
+use crate::errors::{invalid, raise};
+use forgetting::parameter::Value;
+use forgetting::rates::Rate;
+use forgetting::rules::Forgetting;
+use forgetting::saved::AnyEstimator;
+use forgetting::weighting::Weighting;
+use forgetting::Memory;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyFloat};
+
+/// The estimate, (n,) or (n, targets).
+pub fn theta<'py, T: Number>(
+    py: Python<'py>,
+    estimator: &AnyEstimator<T>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let memory = estimator.prior().memory();
+    let (n, m) = (memory.parameters(), memory.targets());
+    let values = estimator.theta();
+    if m == 1 {
+        return shaped(py, values.to_vec(), &[n]);
+    }
+    let transposed = (0..n).flat_map(|i| (0..m).map(move |t| values[t * n + i])).collect();
+    shaped(py, transposed, &[n, m])
+}
+
+/// P, (n, n).
+pub fn covariance<'py, T: Number>(
+    py: Python<'py>,
+    estimator: &AnyEstimator<T>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let n = estimator.factor().parameters();
+    let mut dense = vec![T::ZERO; n * n];
+    estimator.factor().reconstruct(&mut dense);
+    shaped(py, dense, &[n, n])
+}
+
+/// Rule, rate and weighting by name, each with its parameters.
+pub fn describe<'py, T: Number>(
+    py: Python<'py>,
+    estimator: &AnyEstimator<T>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let description = PyDict::new(py);
+    let (rule, rate, weighting) = (estimator.rule(), estimator.rate(), estimator.weighting());
+    description.set_item("rule", part(py, rule.about().name, &|each| rule.describe(each))?)?;
+    description.set_item("rate", part(py, rate.about().name, &|each| rate.describe(each))?)?;
+    let weighting = part(py, weighting.about().name, &|each| weighting.describe(each))?;
+    description.set_item("weighting", weighting)?;
+    Ok(description)
+}
+
+/// phi @ theta for one regressor or many.
+pub fn predict<'py, T: Number>(
+    py: Python<'py>,
+    estimator: &AnyEstimator<T>,
+    phi: Array<'_, 'py>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let memory = estimator.prior().memory();
+    let (n, m) = (memory.parameters(), memory.targets());
+    let mut shape = shape_of("phi", phi)?;
+    if shape.last() != Some(&n) {
+        return Err(invalid(format!("phi has shape {shape:?}, expected (..., {n})")));
+    }
+    shape.pop();
+    with_slice("phi", phi, |phi: &[T]| {
+        let mut prediction = vec![T::ZERO; phi.len() / n * m];
+        estimator.predict(phi, &mut prediction).map_err(raise)?;
+        if m > 1 {
+            shape.push(m);
+        }
+        match (shape.as_slice(), prediction.as_slice()) {
+            ([], [y]) => Ok(PyFloat::new(py, y.to_f64()).into_any()),
+            _ => shaped(py, prediction, &shape),
+        }
+    })
+}
+
+type Describe<'a> = &'a dyn Fn(&mut dyn FnMut(&'static str, Value<'_>));
+
+fn part<'py>(py: Python<'py>, name: &str, describe: Describe<'_>) -> PyResult<Bound<'py, PyDict>> {
+    let (part, parameters) = (PyDict::new(py), PyDict::new(py));
+    let mut outcome = Ok(());
+    describe(&mut |name, value| {
+        let written = write_value(py, value).and_then(|value| parameters.set_item(name, value));
+        if written.is_err() {
+            outcome = written;
+        }
+    });
+    outcome?;
+    part.set_item("name", name)?;
+    part.set_item("parameters", parameters)?;
+    Ok(part)
+}

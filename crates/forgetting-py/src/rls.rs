@@ -1,0 +1,294 @@
+//! The class `RLS`.
+
+use crate::arrays::Number;
+use crate::configure::make;
+use crate::errors::{invalid, raise};
+use crate::outputs::{Run, DEFAULT_OUTPUTS};
+use crate::update::Update;
+use crate::{record, results, sample};
+use forgetting::saved::{number_type, AnyEstimator};
+use forgetting::Memory;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict, PyType};
+
+enum Inner {
+    Double(Box<AnyEstimator<f64>>),
+    Single(Box<AnyEstimator<f32>>),
+}
+
+/// The same expression for either number type.
+macro_rules! either {
+    ($inner:expr, $estimator:ident => $expression:expr) => {
+        match $inner {
+            Inner::Double($estimator) => $expression,
+            Inner::Single($estimator) => $expression,
+        }
+    };
+}
+
+/// Recursive least squares with generalized forgetting.
+///
+/// Follows theta of y = phi @ theta + noise, sample by sample (GF-RLS, Theorem 1).
+///
+/// Parameters
+/// ----------
+/// parameters : int
+///     Number n of parameters of each target.
+/// rule : str or Rule, default "subspace"
+///     Where to forget; see `forgetting.rules()`.
+/// weighting : str or Weighting, optional
+///     How far to trust a sample, by its innovation; see `forgetting.weightings()`.
+/// rows : int, default 1
+///     Measurements a sample that share one theta.
+/// targets : int, default 1
+///     Parameter vectors that share phi and one covariance.
+/// initial_covariance : float, (n,) or (n, n) array, default 100.0
+///     P before the first sample, positive definite, in units of 1/phi**2.
+/// initial_theta : (n,) or (n, targets) array, optional
+///     Estimate before the first sample; 0 if not given.
+/// dtype : {"float64", "float32"}
+///     Type of all numbers.
+///
+/// Raises
+/// ------
+/// InvalidInput
+///     Names the parameter, its value and what is allowed.
+///
+/// Examples
+/// --------
+/// >>> import forgetting as fg
+/// >>> est = fg.RLS(2, rule=fg.Subspace(0.98, threshold=1e-3))
+/// >>> for k in range(100):
+/// ...     u = est.update([1.0, k % 7], 3.0 + 0.5 * (k % 7))
+/// >>> est.theta.round(3)
+/// array([3. , 0.5])
+#[pyclass(name = "RLS", module = "forgetting")]
+pub struct Rls {
+    inner: Inner,
+}
+
+#[pymethods]
+impl Rls {
+    #[new]
+    #[pyo3(signature = (parameters, *, rule=None, weighting=None, rows=1, targets=1,
+        initial_covariance=None, initial_theta=None, dtype="float64"))]
+    #[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
+    fn new(
+        parameters: usize,
+        rule: Option<&Bound<'_, PyAny>>,
+        weighting: Option<&Bound<'_, PyAny>>,
+        rows: usize,
+        targets: usize,
+        initial_covariance: Option<&Bound<'_, PyAny>>,
+        initial_theta: Option<&Bound<'_, PyAny>>,
+        dtype: &str,
+    ) -> PyResult<Self> {
+        let sizes = (parameters, rows, targets);
+        let initial = (initial_covariance, initial_theta);
+        let inner = match dtype {
+            "float64" => Inner::Double(Box::new(make(sizes, rule, weighting, initial)?)),
+            "float32" => Inner::Single(Box::new(make(sizes, rule, weighting, initial)?)),
+            _ => {
+                return Err(invalid(format!(
+                    "dtype = {dtype:?}, allowed: \"float64\", \"float32\""
+                )))
+            }
+        };
+        Ok(Self { inner })
+    }
+
+    /// Number n of parameters of each target.
+    #[getter]
+    fn parameters(&self) -> usize {
+        either!(&self.inner, e => e.prior().memory().parameters())
+    }
+
+    /// Measurements a sample that share one theta.
+    #[getter]
+    fn rows(&self) -> usize {
+        either!(&self.inner, e => e.prior().memory().rows())
+    }
+
+    /// Parameter vectors that share phi and one covariance.
+    #[getter]
+    fn targets(&self) -> usize {
+        either!(&self.inner, e => e.prior().memory().targets())
+    }
+
+    /// Name of the number type.
+    #[getter]
+    fn dtype(&self) -> &'static str {
+        match self.inner {
+            Inner::Double(_) => f64::DTYPE,
+            Inner::Single(_) => f32::DTYPE,
+        }
+    }
+
+    /// Samples used since the start; skipped ones do not count.
+    #[getter]
+    fn samples(&self) -> u64 {
+        either!(&self.inner, e => e.samples())
+    }
+
+    /// The estimate, (n,) or (n, targets).
+    #[getter]
+    fn theta<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        either!(&self.inner, e => results::theta(py, e))
+    }
+
+    /// The covariance P, (n, n), in units of 1/phi**2: times the noise variance, it is that of
+    /// the estimate.
+    #[getter]
+    fn covariance<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        either!(&self.inner, e => results::covariance(py, e))
+    }
+
+    /// The rule, rate and weighting by name, each with its parameters.
+    fn describe<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        either!(&self.inner, e => results::describe(py, e))
+    }
+
+    /// The forgetting rule, as an object that would make the same one.
+    #[getter]
+    fn rule<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        py.import("forgetting.choices")?.call_method1("from_description", (self.describe(py)?,))
+    }
+
+    /// phi @ theta.
+    ///
+    /// Parameters
+    /// ----------
+    /// phi : (n,) or (T, n) array
+    ///
+    /// Returns
+    /// -------
+    /// float, (targets,), (T,) or (T, targets)
+    fn predict<'py>(
+        &self,
+        py: Python<'py>,
+        phi: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        either!(&self.inner, e => results::predict(py, e, phi))
+    }
+
+    /// Take one sample.
+    ///
+    /// Parameters
+    /// ----------
+    /// phi : (n,) or (rows, n) array
+    /// y : float, (rows,), (targets,) or (rows, targets) array
+    /// gamma : float or (rows, rows) array, optional
+    ///     Noise covariance of the sample, positive definite; 1 if not given.
+    ///
+    /// Returns
+    /// -------
+    /// Update
+    ///
+    /// Raises
+    /// ------
+    /// InvalidInput
+    ///     For a wrong shape, NaN or Inf, or a gamma that is not positive definite.
+    /// NumericalRange
+    ///     When the covariance would overflow. In either case nothing has changed.
+    #[pyo3(signature = (phi, y, gamma=None))]
+    fn update(
+        &mut self,
+        phi: &Bound<'_, PyAny>,
+        y: &Bound<'_, PyAny>,
+        gamma: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Update> {
+        either!(&mut self.inner, e => sample::update(e, phi, y, gamma))
+    }
+
+    /// Take a whole record, without Python in the loop and without holding the interpreter.
+    ///
+    /// Equal, bit for bit, to one `update` a sample.
+    ///
+    /// Parameters
+    /// ----------
+    /// phi : (T, n) or (T, rows, n) array
+    /// y : (T,), (T, rows), (T, targets) or (T, rows, targets) array
+    /// gamma : float, (rows, rows), (T,) or (T, rows, rows) array, optional
+    ///     Noise covariance, the same for all samples or one a sample.
+    /// outputs : sequence of str, optional
+    ///     What to keep: names of attributes of `Run`.
+    /// missing : {"error", "skip"}
+    ///     What to do with a sample that has a NaN: refuse the record, or leave the sample out.
+    ///
+    /// Returns
+    /// -------
+    /// Run
+    ///
+    /// Raises
+    /// ------
+    /// InvalidInput, NumericalRange
+    ///     Names the sample and what is wrong with it; the estimator is as it was before the
+    ///     record.
+    #[pyo3(signature = (phi, y, gamma=None, outputs=None, missing="error"))]
+    fn run(
+        &mut self,
+        py: Python<'_>,
+        phi: &Bound<'_, PyAny>,
+        y: &Bound<'_, PyAny>,
+        gamma: Option<&Bound<'_, PyAny>>,
+        outputs: Option<Vec<String>>,
+        missing: &str,
+    ) -> PyResult<Run> {
+        let skip = match missing {
+            "error" => false,
+            "skip" => true,
+            _ => {
+                return Err(invalid(format!("missing = {missing:?}, allowed: \"error\", \"skip\"")))
+            }
+        };
+        let outputs = outputs.unwrap_or_else(|| DEFAULT_OUTPUTS.map(String::from).to_vec());
+        either!(&mut self.inner, e => record::run(py, e, (phi, y, gamma), &outputs, skip))
+    }
+
+    /// Back to the initial estimate and covariance, as if no sample had been seen.
+    fn reset(&mut self) {
+        either!(&mut self.inner, e => e.reset());
+    }
+
+    /// The estimator, configuration and state, as bytes: portable, versioned and checked.
+    fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let bytes = either!(&self.inner, e => e.to_bytes()).map_err(raise)?;
+        Ok(PyBytes::new(py, &bytes))
+    }
+
+    /// The estimator that `to_bytes` saved, bit for bit.
+    #[classmethod]
+    fn from_bytes(_: &Bound<'_, PyType>, state: &[u8]) -> PyResult<Self> {
+        let inner = match number_type(state).map_err(raise)? {
+            4 => Inner::Single(Box::new(AnyEstimator::from_bytes(state).map_err(raise)?)),
+            _ => Inner::Double(Box::new(AnyEstimator::from_bytes(state).map_err(raise)?)),
+        };
+        Ok(Self { inner })
+    }
+
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
+        let restore = slf.getattr("from_bytes")?;
+        Ok((restore, (slf.borrow().to_bytes(slf.py())?,)))
+    }
+
+    fn __copy__(&self) -> Self {
+        let inner = match &self.inner {
+            Inner::Double(e) => Inner::Double(e.clone()),
+            Inner::Single(e) => Inner::Single(e.clone()),
+        };
+        Self { inner }
+    }
+
+    fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> Self {
+        self.__copy__()
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let rule = self.rule(py)?.repr()?;
+        let (n, p, m) = (self.parameters(), self.rows(), self.targets());
+        let samples = self.samples();
+        Ok(format!("RLS({n}, rule={rule}, rows={p}, targets={m}) after {samples} samples"))
+    }
+}

@@ -1,0 +1,115 @@
+//! What can be refused, and how it is said.
+
+use core::fmt;
+
+/// Why something was refused. Whatever was refused has changed nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Error {
+    /// A value outside its allowed range.
+    Value {
+        /// name of the parameter
+        parameter: &'static str,
+        /// position in it, where it has more than one value
+        index: Option<usize>,
+        /// the value given
+        value: f64,
+        /// the values allowed, in words or as an interval
+        allowed: &'static str,
+    },
+    /// A number of elements other than the one needed.
+    Length {
+        /// name of the parameter
+        parameter: &'static str,
+        /// number of elements given
+        length: usize,
+        /// number of elements needed
+        expected: usize,
+    },
+    /// A matrix that must be positive (semi-)definite and is not.
+    Indefinite {
+        /// name of the parameter
+        parameter: &'static str,
+        /// the pivot at which the factorization failed
+        pivot: f64,
+        /// "positive definite" or "positive semidefinite"
+        allowed: &'static str,
+    },
+    /// A parameter that must be given and was not.
+    Missing {
+        /// name of the parameter
+        parameter: &'static str,
+    },
+    /// A name that the registry does not know.
+    Unknown {
+        /// what was looked up: "rule", "rate" or "weighting"
+        parameter: &'static str,
+    },
+    /// A quantity that would leave the range of the number type.
+    Range {
+        /// name of the quantity
+        parameter: &'static str,
+        /// the value it would take
+        value: f64,
+        /// the largest magnitude allowed
+        limit: f64,
+    },
+    /// A combination of choices that has no meaning.
+    Unsupported {
+        /// what does not go together, and what does
+        reason: &'static str,
+    },
+    /// A saved state that cannot be read.
+    State {
+        /// what is wrong with it
+        reason: &'static str,
+    },
+}
+
+impl Error {
+    /// A single value outside its range.
+    pub fn value(parameter: &'static str, value: f64, allowed: &'static str) -> Self {
+        Self::Value { parameter, index: None, value, allowed }
+    }
+
+    /// Refuses a `length` other than `expected`.
+    #[inline(always)]
+    pub fn check_length(
+        parameter: &'static str,
+        length: usize,
+        expected: usize,
+    ) -> Result<(), Self> {
+        if length == expected {
+            Ok(())
+        } else {
+            Err(Self::Length { parameter, length, expected })
+        }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Value { parameter, index: None, value, allowed } => {
+                write!(f, "{parameter} = {value}, allowed: {allowed}")
+            }
+            Self::Value { parameter, index: Some(index), value, allowed } => {
+                write!(f, "{parameter}[{index}] = {value}, allowed: {allowed}")
+            }
+            Self::Length { parameter, length, expected } => {
+                write!(f, "{parameter} has {length} elements, expected {expected}")
+            }
+            Self::Indefinite { parameter, pivot, allowed } => {
+                write!(f, "{parameter} is not {allowed} (pivot {pivot:e})")
+            }
+            Self::Missing { parameter } => write!(f, "{parameter} is required"),
+            Self::Unknown { parameter } => write!(f, "unknown {parameter}"),
+            Self::Range { parameter, value, limit } => {
+                write!(f, "{parameter} = {value:e} exceeds the numerical range, limit {limit:e}")
+            }
+            Self::Unsupported { reason } => f.write_str(reason),
+            Self::State { reason } => write!(f, "state: {reason}"),
+        }
+    }
+}
+
+impl core::error::Error for Error {}

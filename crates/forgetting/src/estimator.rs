@@ -1,0 +1,251 @@
+//! The one recursion (GF-RLS, Theorem 1), sample by sample.
+//!
+//!     forget    R̄ = R − F                          R = P⁻¹; only P changes
+//!     measure   R₊ = R̄ + φᵀ Γ⁻¹ φ                  P and the gain
+//!     correct   θ₊ = θ + R₊⁻¹ φᵀ Γ⁻¹ (y − φ θ)     θ changes here and nowhere else
+
+use crate::factor::kernel::dot;
+use crate::intake::{whiten, Intake, Known, Noise};
+use crate::measure::{leverage, measure};
+use crate::rates::Rate;
+use crate::rules::{Forgetting, Forgotten, Skip, Step};
+use crate::state::{State, Visitor};
+use crate::weighting::Weighting;
+use crate::{Error, Factor, Memory, Prior, Real, Sample, Work};
+
+/// What one sample told.
+#[derive(Clone, Copy, Debug)]
+pub struct Update<'a, T> {
+    /// y − φθ with the θ of before: p x m numbers, row by row, in units of y
+    pub error: &'a [T],
+    /// tr φ̄P̄φ̄ᵀ: the variance of the prediction in units of the noise's
+    pub leverage: T,
+    /// the λ used
+    pub forgetting_factor: T,
+    /// the number of directions that lost information
+    pub rank: usize,
+    /// why the sample was left out, if it was
+    pub skipped: Option<Skip>,
+    /// whether P has grown beyond [`Estimator::WINDUP`] times its first value
+    pub windup: bool,
+}
+
+/// Recursive least squares with the forgetting rule `F`, the rate `R` and the weighting `W`.
+///
+/// ```
+/// use forgetting::{Constant, Equal, Estimator, Fixed, Prior, Subspace};
+///
+/// let memory = Fixed::<f64, 2>::new();
+/// let mut estimator = Estimator::new(
+///     Subspace::new(1e-3)?,
+///     Constant::new(0.98)?,
+///     Equal::new(),
+///     Prior::scalar(memory, 100.0)?,
+/// );
+/// for k in 0..100 {
+///     let phi = [1.0, f64::from(k % 7)];
+///     let update = estimator.update(&phi, &[3.0 + 0.5 * phi[1]])?;
+///     assert!(update.skipped.is_none());
+/// }
+/// assert!((estimator.theta()[0] - 3.0).abs() < 1e-3);
+/// # Ok::<(), forgetting::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Estimator<F, R, W, M>
+where
+    F: Forgetting<M>,
+    R: Rate<M>,
+    W: Weighting<M>,
+    M: Memory,
+{
+    rule: F,
+    rate: R,
+    weighting: W,
+    prior: Prior<M>,
+    factor: Factor<M>,
+    theta: M::Parameters,
+    rule_state: F::State,
+    rate_state: R::State,
+    samples: u64,
+    windup_limit: M::Real,
+    intake: Intake<M>,
+    work: Work<M>,
+}
+
+impl<F, R, W, M> Estimator<F, R, W, M>
+where
+    F: Forgetting<M>,
+    R: Rate<M>,
+    W: Weighting<M>,
+    M: Memory,
+{
+    /// Growth of the largest element of D over its first value that counts as windup.
+    pub const WINDUP: f64 = 10.0;
+
+    /// An estimator that starts from `prior`.
+    pub fn new(rule: F, rate: R, weighting: W, prior: Prior<M>) -> Self {
+        let memory = prior.memory();
+        let factor = prior.factor();
+        Self {
+            theta: prior.theta().clone(),
+            rule_state: rule.start(memory),
+            rate_state: rate.start(memory),
+            windup_limit: M::Real::from_f64(Self::WINDUP) * factor.largest(),
+            intake: Intake::new(memory),
+            work: Work::new(memory),
+            samples: 0,
+            rule,
+            rate,
+            weighting,
+            prior,
+            factor,
+        }
+    }
+
+    /// Back to the prior, as if no sample had been seen.
+    pub fn reset(&mut self) {
+        let memory = self.prior.memory();
+        self.factor = self.prior.factor();
+        self.theta = self.prior.theta().clone();
+        self.rule_state = self.rule.start(memory);
+        self.rate_state = self.rate.start(memory);
+        self.samples = 0;
+    }
+
+    /// φθ for p x n numbers `phi`, row by row; writes p x m numbers to `prediction`.
+    ///
+    /// # Errors
+    /// [`Error::Length`] names what does not fit.
+    pub fn predict(&self, phi: &[M::Real], prediction: &mut [M::Real]) -> Result<(), Error> {
+        let memory = self.prior.memory();
+        let (n, m) = (memory.parameters(), memory.targets());
+        if n == 0 || phi.len() % n != 0 {
+            return Err(Error::Length { parameter: "phi", length: phi.len(), expected: n });
+        }
+        Error::check_length("prediction", prediction.len(), phi.len() / n * m)?;
+        for (row, predicted) in phi.chunks_exact(n).zip(prediction.chunks_exact_mut(m)) {
+            for (theta, y) in self.theta.as_ref().chunks_exact(n).zip(predicted) {
+                *y = dot(row, theta);
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes the sample of p x n numbers `phi` and p x m numbers `y`, with Γ = I.
+    ///
+    /// # Errors
+    /// [`Error`] names what was wrong; the estimator is as it was, bit for bit.
+    #[inline(always)]
+    pub fn update(&mut self, phi: &[M::Real], y: &[M::Real]) -> Result<Update<'_, M::Real>, Error> {
+        self.update_weighted(phi, y, Noise::Unit)
+    }
+
+    /// Takes a sample with the noise covariance Γ = `noise`.
+    ///
+    /// # Errors
+    /// [`Error`] names what was wrong; the estimator is as it was, bit for bit.
+    #[inline(always)]
+    pub fn update_weighted(
+        &mut self,
+        phi: &[M::Real],
+        y: &[M::Real],
+        noise: Noise<'_, M::Real>,
+    ) -> Result<Update<'_, M::Real>, Error> {
+        self.intake.take(self.prior.memory(), self.theta.as_ref(), phi, y)?;
+        let memory = self.prior.memory();
+        let intake = &mut self.intake;
+        let mut sample = Sample::new(memory, intake.regressors.as_mut(), intake.errors.as_mut());
+        whiten(&mut sample, noise, intake.noise.as_mut())?;
+        let mut known = Known::of(&sample)?;
+        if self.rate.needs_leverage() || self.weighting.needs_leverage() {
+            known.leverage = leverage(&self.factor, &sample);
+        }
+        let evidence = known.evidence(&sample, &self.factor, self.samples);
+        let weight = self.weighting.weight(&evidence);
+        if weight != M::Real::ONE {
+            known.weigh(weight)?;
+            sample.scale(weight.sqrt());
+        }
+        let evidence = known.evidence(&sample, &self.factor, self.samples);
+        let lambda = self.rate.forgetting_factor(&self.rate_state, &evidence);
+        if !(lambda > M::Real::ZERO && lambda <= M::Real::ONE) {
+            return Err(Error::value("forgetting_factor", lambda.to_f64(), "(0, 1]"));
+        }
+        let step = Step {
+            factor: &mut self.factor,
+            sample: &mut sample,
+            forgetting_factor: lambda,
+            work: &mut self.work,
+        };
+        let Forgotten { rank, skipped } = self.rule.forget(&mut self.rule_state, step)?;
+        let leverage = if skipped.is_some() {
+            leverage(&self.factor, &sample)
+        } else {
+            let (gain, theta) = (self.work.gain.as_mut(), self.theta.as_mut());
+            let leverage = measure(&mut self.factor, &sample, gain, theta, &mut intake.remaining);
+            let evidence = known.evidence(&sample, &self.factor, self.samples);
+            self.rate.learn(&mut self.rate_state, &evidence, lambda);
+            self.samples += 1;
+            leverage
+        };
+        Ok(Update {
+            error: self.intake.innovations.as_ref(),
+            leverage,
+            forgetting_factor: lambda,
+            rank,
+            skipped,
+            windup: self.factor.largest() > self.windup_limit,
+        })
+    }
+
+    /// θ, m x n numbers, one target after the other.
+    #[inline(always)]
+    pub fn theta(&self) -> &[M::Real] {
+        self.theta.as_ref()
+    }
+
+    /// P, factored.
+    #[inline(always)]
+    pub fn factor(&self) -> &Factor<M> {
+        &self.factor
+    }
+
+    /// Samples used since the start; skipped ones do not count.
+    pub fn samples(&self) -> u64 {
+        self.samples
+    }
+
+    /// The forgetting rule.
+    pub fn rule(&self) -> &F {
+        &self.rule
+    }
+
+    /// The design of the forgetting factor.
+    pub fn rate(&self) -> &R {
+        &self.rate
+    }
+
+    /// The weighting of samples.
+    pub fn weighting(&self) -> &W {
+        &self.weighting
+    }
+
+    /// θ₀ and P₀.
+    pub fn prior(&self) -> &Prior<M> {
+        &self.prior
+    }
+
+    /// Whether θ is finite and P positive definite, as after every sample.
+    pub fn is_sound(&self) -> bool {
+        self.theta.as_ref().iter().all(|x| x.is_finite()) && self.factor.is_sound()
+    }
+
+    /// Shows every number of the state to `visitor`.
+    pub fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
+        self.factor.visit(visitor);
+        visitor.reals(self.theta.as_mut());
+        self.rule_state.visit(visitor);
+        self.rate_state.visit(visitor);
+        visitor.whole(&mut self.samples);
+    }
+}

@@ -1,0 +1,79 @@
+//! Adding covariance: P ← c·P and P ← P + c·x·xᵀ. P can only grow, and is watched for overflow.
+
+use super::{kernel, Factor};
+use crate::{Error, Memory, Real};
+
+impl<M: Memory> Factor<M> {
+    /// P ← `growth`·P with `growth` ≥ 1. O(n).
+    ///
+    /// # Errors
+    /// [`Error::Range`] when P would leave the range of the number type; P is as it was.
+    #[inline(always)]
+    pub fn scale(&mut self, growth: M::Real) -> Result<(), Error> {
+        self.reserve(growth, M::Real::ZERO)?;
+        for d in self.diagonal.as_mut() {
+            *d *= growth;
+        }
+        Ok(())
+    }
+
+    /// P ← P + c·x·xᵀ with c ≥ 0 for n numbers `x`, which it uses up. O(n²).
+    ///
+    /// Call [`Factor::reserve`] first, for all that one sample adds.
+    #[inline(always)]
+    pub fn add_covariance(&mut self, x: &mut [M::Real], c: M::Real) {
+        kernel::agee_turner(self.columns.as_mut(), self.diagonal.as_mut(), x, c);
+    }
+
+    /// P ← P + diag(`variances`), each ≥ 0. O(n³): one dyad per element that is not 0.
+    ///
+    /// Call [`Factor::reserve`] first.
+    pub fn add_diagonal(&mut self, variances: &[M::Real], work: &mut [M::Real]) {
+        for (i, &variance) in variances.iter().enumerate() {
+            if variance > M::Real::ZERO {
+                work.fill(M::Real::ZERO);
+                work[i] = M::Real::ONE;
+                self.add_covariance(work, variance);
+            }
+        }
+    }
+
+    /// P ← S·P·S with S = diag(`scale`), each > 0: U ← S U S⁻¹, D ← S D S. O(n²).
+    ///
+    /// Call [`Factor::reserve`] with the largest squared scale first.
+    pub fn scale_each(&mut self, scale: &[M::Real]) {
+        for (j, (&s, d)) in scale.iter().zip(self.diagonal.as_mut()).enumerate() {
+            *d = (*d * s * s).max(M::Real::FLOOR);
+            for (u, &t) in kernel::column_mut(self.columns.as_mut(), j).iter_mut().zip(scale) {
+                *u = *u * t / s;
+            }
+        }
+    }
+
+    /// Makes room for P to become at most `growth`·P plus a matrix of trace `added`.
+    ///
+    /// The bound on P's trace costs O(1) to keep; only when it nears the limit is the trace
+    /// itself computed.
+    ///
+    /// # Errors
+    /// [`Error::Range`] when the trace would exceed [`Real::CEILING`]; P is as it was.
+    #[inline(always)]
+    pub fn reserve(&mut self, growth: M::Real, added: M::Real) -> Result<(), Error> {
+        let before = self.trace_bound;
+        let mut bound = before * growth + added;
+        if !(bound < M::Real::CEILING) {
+            self.tighten();
+            bound = self.trace_bound * growth + added;
+        }
+        if bound < M::Real::CEILING {
+            self.trace_bound = bound;
+            return Ok(());
+        }
+        self.trace_bound = before;
+        Err(Error::Range {
+            parameter: "covariance (its trace)",
+            value: bound.to_f64(),
+            limit: M::Real::CEILING.to_f64(),
+        })
+    }
+}

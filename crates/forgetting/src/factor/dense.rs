@@ -1,0 +1,99 @@
+//! From a dense symmetric matrix to the factor.
+
+use super::{kernel, Factor};
+use crate::{Error, Memory, Real};
+
+impl<M: Memory> Factor<M> {
+    /// The factor of the n x n matrix `covariance`, of which it reads the upper triangle.
+    ///
+    /// # Errors
+    /// [`Error::Length`], [`Error::Value`] for an element that is not finite, and
+    /// [`Error::Indefinite`] unless the matrix is symmetric and positive definite.
+    pub fn dense(memory: M, covariance: &[M::Real]) -> Result<Self, Error> {
+        const NAME: &str = "initial_covariance";
+        let n = memory.parameters();
+        Error::check_length(NAME, covariance.len(), n * n)?;
+        check_symmetric(NAME, covariance, n)?;
+        let mut factor = Self::scalar(memory, M::Real::ONE)?;
+        let mut work = memory.square();
+        work.as_mut().copy_from_slice(covariance);
+        factor.replace(work.as_mut(), NAME)?;
+        Ok(factor)
+    }
+
+    /// P ← the n x n matrix `covariance`, of which it reads the upper triangle and which it uses
+    /// up. O(n³/6).
+    ///
+    /// # Errors
+    /// [`Error::Indefinite`] unless the matrix is positive definite, [`Error::Range`] when it
+    /// is too large; P is as it was.
+    pub fn replace(&mut self, covariance: &mut [M::Real], name: &'static str) -> Result<(), Error> {
+        let n = self.parameters();
+        let mut trace = M::Real::ZERO;
+        for j in 0..n {
+            trace += covariance[j * n + j];
+        }
+        decompose(covariance, n, name)?;
+        if !(trace < M::Real::CEILING) {
+            let limit = M::Real::CEILING.to_f64();
+            return Err(Error::Range { parameter: name, value: trace.to_f64(), limit });
+        }
+        for j in 0..n {
+            self.diagonal.as_mut()[j] = covariance[j * n + j].max(M::Real::FLOOR);
+            let column = kernel::column_mut(self.columns.as_mut(), j);
+            for (i, u) in column.iter_mut().enumerate() {
+                *u = covariance[i * n + j];
+            }
+        }
+        self.trace_bound = trace;
+        Ok(())
+    }
+}
+
+/// A = U D Uᵀ in place, D on the diagonal and U above it, from the last column to the first.
+fn decompose<T: Real>(a: &mut [T], n: usize, name: &'static str) -> Result<(), Error> {
+    for j in (0..n).rev() {
+        let d = a[j * n + j];
+        if !(d > T::ZERO && d.is_finite()) {
+            let pivot = d.to_f64();
+            return Err(Error::Indefinite { parameter: name, pivot, allowed: "positive definite" });
+        }
+        for i in 0..j {
+            a[i * n + j] /= d;
+        }
+        for k in 0..j {
+            let weight = a[k * n + j] * d;
+            for i in 0..=k {
+                let u = a[i * n + j];
+                a[i * n + k] -= u * weight;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a matrix with an element that is not finite or a pair that is not symmetric.
+pub(crate) fn check_symmetric<T: Real>(
+    name: &'static str,
+    matrix: &[T],
+    n: usize,
+) -> Result<(), Error> {
+    let refuse = |index: usize, allowed| {
+        let value = matrix[index].to_f64();
+        Err(Error::Value { parameter: name, index: Some(index), value, allowed })
+    };
+    if let Some(index) = matrix.iter().position(|x| !x.is_finite()) {
+        return refuse(index, "finite numbers");
+    }
+    let tolerance = T::from_f64(1e3) * T::EPSILON;
+    for i in 0..n {
+        for j in i + 1..n {
+            let (x, y) = (matrix[i * n + j], matrix[j * n + i]);
+            let scale = (matrix[i * n + i] * matrix[j * n + j]).abs().sqrt();
+            if (x - y).abs() > tolerance * scale.max(x.abs()) {
+                return refuse(j * n + i, "a symmetric matrix");
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,56 @@
+//! Adding information: P⁻¹ ← P⁻¹ + fᵀf. P can only shrink, and never below D ≥ floor.
+
+use super::{kernel, Factor};
+use crate::{Memory, Real};
+
+/// What one scalar measurement with unit variance brings.
+#[derive(Clone, Copy, Debug)]
+pub struct Measured<T> {
+    /// s = f·P·fᵀ, with the P of before
+    pub leverage: T,
+    /// a = 1 + s
+    pub variance: T,
+}
+
+impl<M: Memory> Factor<M> {
+    /// P⁻¹ ← P⁻¹ + fᵀf for n numbers `f`; leaves P·fᵀ (with the P of before, that is a times the
+    /// gain) in `gain`.
+    #[inline(always)]
+    pub fn add_information(&mut self, f: &[M::Real], gain: &mut [M::Real]) -> Measured<M::Real> {
+        let (leverage, variance) =
+            kernel::bierman(self.columns.as_mut(), self.diagonal.as_mut(), f, gain);
+        Measured { leverage, variance }
+    }
+
+    /// f·P·fᵀ for n numbers `f`.
+    #[inline(always)]
+    pub fn leverage(&self, f: &[M::Real]) -> M::Real {
+        kernel::leverage(self.columns.as_ref(), self.diagonal.as_ref(), f)
+    }
+
+    /// D^(−1/2)·U⁻¹·fᵀ in place of `f`: its squared length is f·P⁻¹·fᵀ.
+    ///
+    /// Gives the vector without the square roots of D; divide products of elements by D.
+    #[inline(always)]
+    pub fn solve(&self, f: &mut [M::Real]) {
+        kernel::solve(self.columns.as_ref(), f);
+    }
+
+    /// f·P⁻¹·fᵀ, the information that P⁻¹ holds along `f`, by one triangular solve in `work`.
+    #[inline(always)]
+    pub fn information_along(&self, f: &[M::Real], work: &mut [M::Real]) -> M::Real {
+        work.copy_from_slice(f);
+        self.solve(work);
+        let diagonal = self.diagonal.as_ref();
+        work.iter().zip(diagonal).fold(M::Real::ZERO, |sum, (&z, &d)| sum + z * z / d)
+    }
+
+    /// x ← P·x
+    pub fn multiply(&self, x: &mut [M::Real]) {
+        kernel::multiply_transposed(self.columns.as_ref(), x);
+        for (x, &d) in x.iter_mut().zip(self.diagonal.as_ref()) {
+            *x *= d;
+        }
+        kernel::multiply(self.columns.as_ref(), x);
+    }
+}

@@ -1,0 +1,175 @@
+//! The covariance P as U D Uᵀ: U unit upper triangular, D diagonal and positive.
+//!
+//! Nothing here subtracts from P. Each operation scales it, adds covariance, adds information,
+//! transforms it by congruence or replaces it, and keeps every element of D at or above
+//! [`Real::FLOOR`]: P stays positive definite whatever is asked of it.
+
+mod covariance;
+pub(crate) mod dense;
+mod information;
+pub mod kernel;
+
+use crate::{Error, Memory, Real};
+
+/// P = U D Uᵀ, n x n and positive definite.
+#[derive(Clone, Debug)]
+pub struct Factor<M: Memory> {
+    memory: M,
+    /// the columns of U above its unit diagonal, one after the other
+    columns: M::Packed,
+    diagonal: M::Vector,
+    /// at least the trace of P; kept in O(1), tightened when it matters
+    trace_bound: M::Real,
+}
+
+impl<M: Memory> Factor<M> {
+    /// P = `variance`·I.
+    ///
+    /// # Errors
+    /// [`Error::Value`] unless `variance` is positive and in range.
+    pub fn scalar(memory: M, variance: M::Real) -> Result<Self, Error> {
+        let mut diagonal = memory.vector();
+        diagonal.as_mut().fill(variance);
+        Self::diagonal(memory, diagonal.as_ref())
+    }
+
+    /// P = diag(`variances`), n numbers.
+    ///
+    /// # Errors
+    /// [`Error::Length`], or [`Error::Value`] unless every variance is positive and in range.
+    pub fn diagonal(memory: M, variances: &[M::Real]) -> Result<Self, Error> {
+        const NAME: &str = "initial_covariance";
+        Error::check_length(NAME, variances.len(), memory.parameters())?;
+        for (index, &variance) in variances.iter().enumerate() {
+            if !(variance >= M::Real::FLOOR && variance <= M::Real::CEILING) {
+                return Err(Error::Value {
+                    parameter: NAME,
+                    index: Some(index),
+                    value: variance.to_f64(),
+                    allowed: "positive and finite",
+                });
+            }
+        }
+        Ok(Self::of(memory, |i| variances[i]))
+    }
+
+    /// P diagonal with these elements, each within [floor, ceiling].
+    pub(crate) fn of(memory: M, variance: impl Fn(usize) -> M::Real) -> Self {
+        let mut diagonal = memory.vector();
+        for (i, d) in diagonal.as_mut().iter_mut().enumerate() {
+            *d = variance(i);
+        }
+        let columns = memory.packed();
+        let mut factor = Self { memory, columns, diagonal, trace_bound: M::Real::ZERO };
+        factor.tighten();
+        factor
+    }
+
+    /// Whether D is within range and U finite: whether this is a positive definite P.
+    pub fn is_sound(&self) -> bool {
+        let in_range = |d: &M::Real| *d >= M::Real::FLOOR && *d <= M::Real::CEILING;
+        self.diagonal.as_ref().iter().all(in_range)
+            && self.columns.as_ref().iter().all(|u| u.is_finite())
+            && self.trace_bound.is_finite()
+    }
+
+    /// n
+    #[inline(always)]
+    pub fn parameters(&self) -> usize {
+        self.memory.parameters()
+    }
+
+    /// The sizes this factor was made for.
+    #[inline(always)]
+    pub fn memory(&self) -> M {
+        self.memory
+    }
+
+    /// D, n positive numbers.
+    #[inline(always)]
+    pub fn diagonal_elements(&self) -> &[M::Real] {
+        self.diagonal.as_ref()
+    }
+
+    /// U above its diagonal: column j (j numbers) starts at j (j − 1) / 2.
+    #[inline(always)]
+    pub fn packed_columns(&self) -> &[M::Real] {
+        self.columns.as_ref()
+    }
+
+    /// The largest element of D: at most the largest eigenvalue of P, and of its order when
+    /// one direction dominates.
+    #[inline(always)]
+    pub fn largest(&self) -> M::Real {
+        self.diagonal.as_ref().iter().fold(M::Real::ZERO, |largest, &d| largest.max(d))
+    }
+
+    /// The smallest element of D: at least the smallest eigenvalue of P.
+    #[inline(always)]
+    pub fn smallest(&self) -> M::Real {
+        self.diagonal.as_ref().iter().fold(M::Real::CEILING, |smallest, &d| smallest.min(d))
+    }
+
+    /// Column j of U above the diagonal.
+    #[inline(always)]
+    pub(crate) fn column(&self, j: usize) -> &[M::Real] {
+        kernel::column(self.columns.as_ref(), j)
+    }
+
+    /// The trace of P, O(n²).
+    pub fn trace(&self) -> M::Real {
+        let diagonal = self.diagonal.as_ref();
+        (0..self.parameters()).fold(M::Real::ZERO, |trace, j| {
+            let column = self.column(j);
+            trace + diagonal[j] * (M::Real::ONE + kernel::dot(column, column))
+        })
+    }
+
+    /// P as n x n numbers, written to `dense` (of n² elements, else left alone).
+    pub fn reconstruct(&self, dense: &mut [M::Real]) {
+        let n = self.parameters();
+        if dense.len() != n * n {
+            return;
+        }
+        for row in 0..n {
+            for column in row..n {
+                let element = self.element(row, column);
+                dense[row * n + column] = element;
+                dense[column * n + row] = element;
+            }
+        }
+    }
+
+    /// P's element at `row` ≤ `column`: Σ_k U_row,k D_k U_column,k.
+    fn element(&self, row: usize, column: usize) -> M::Real {
+        let entry = |i: usize, k: usize| {
+            if i == k {
+                M::Real::ONE
+            } else {
+                self.column(k)[i]
+            }
+        };
+        (column..self.parameters()).fold(M::Real::ZERO, |sum, k| {
+            sum + entry(row, k) * self.diagonal.as_ref()[k] * entry(column, k)
+        })
+    }
+
+    /// The diagonal of P, written to `variances` (n elements), O(n²).
+    pub fn variances(&self, variances: &mut [M::Real]) {
+        for (i, variance) in variances.iter_mut().enumerate().take(self.parameters()) {
+            *variance = self.element(i, i);
+        }
+    }
+
+    /// Replaces the trace's bound by the trace itself.
+    pub(crate) fn tighten(&mut self) {
+        self.trace_bound = self.trace();
+    }
+
+    /// Visits every number of the state, to save or restore it.
+    pub fn visit(&mut self, visitor: &mut dyn crate::state::Visitor<M::Real>) {
+        visitor.reals(self.columns.as_mut());
+        visitor.reals(self.diagonal.as_mut());
+        visitor.reals(core::slice::from_mut(&mut self.trace_bound));
+    }
+}

@@ -1,0 +1,177 @@
+//! The sample as it comes in: checked, then whitened. Whatever is wrong with it is found here,
+//! before anything changes.
+
+use crate::factor::dense::check_symmetric;
+use crate::factor::kernel::dot;
+use crate::rates::Evidence;
+use crate::{Error, Factor, Memory, Real, Sample};
+
+/// The noise covariance Γ of one sample.
+#[derive(Clone, Copy, Debug)]
+pub enum Noise<'a, T> {
+    /// Γ = I
+    Unit,
+    /// Γ = c·I
+    Scalar(T),
+    /// p x p numbers, symmetric and positive definite
+    Full(&'a [T]),
+}
+
+/// The sample's buffers.
+#[derive(Clone, Debug)]
+pub(crate) struct Intake<M: Memory> {
+    /// p x n: the whitened regressor
+    pub regressors: M::Rows,
+    /// p x m: the innovation y − φθ, in units of y
+    pub innovations: M::Errors,
+    /// p x m: the whitened innovation
+    pub errors: M::Errors,
+    /// p x m: what is left of it as the rows of a sample are used one after the other
+    pub remaining: M::Errors,
+    /// p x p: Γ, then its root
+    pub noise: M::Noise,
+}
+
+impl<M: Memory> Intake<M> {
+    /// Buffers of these sizes.
+    pub fn new(memory: M) -> Self {
+        Self {
+            regressors: memory.regressors(),
+            innovations: memory.errors(),
+            errors: memory.errors(),
+            remaining: memory.errors(),
+            noise: memory.noise(),
+        }
+    }
+
+    /// Checks the sample and keeps y − φθ and φ, not yet whitened.
+    ///
+    /// # Errors
+    /// [`Error`] names what does not fit, is not finite or is too large.
+    #[inline(always)]
+    pub fn take(
+        &mut self,
+        memory: M,
+        theta: &[M::Real],
+        phi: &[M::Real],
+        y: &[M::Real],
+    ) -> Result<(), Error> {
+        let (n, p, m) = (memory.parameters(), memory.rows(), memory.targets());
+        Error::check_length("phi", phi.len(), p * n)?;
+        Error::check_length("y", y.len(), p * m)?;
+        let innovations = self.innovations.as_mut();
+        let mut largest = M::Real::ZERO;
+        for i in 0..p {
+            for (t, theta) in theta.chunks_exact(n).enumerate() {
+                let error = y[i * m + t] - dot(&phi[i * n..(i + 1) * n], theta);
+                innovations[i * m + t] = error;
+                // written so that a NaN stays
+                largest = if error.abs() <= largest { largest } else { error.abs() };
+            }
+        }
+        if !(largest <= M::Real::CEILING) {
+            return Err(blame(phi, y, largest));
+        }
+        self.regressors.as_mut().copy_from_slice(phi);
+        self.errors.as_mut().copy_from_slice(innovations);
+        Ok(())
+    }
+}
+
+/// Applies Γ = `noise`; a full one is left factored in `root`.
+#[inline(always)]
+pub fn whiten<M: Memory>(
+    sample: &mut Sample<'_, M>,
+    noise: Noise<'_, M::Real>,
+    root: &mut [M::Real],
+) -> Result<(), Error> {
+    match noise {
+        Noise::Unit => Ok(()),
+        Noise::Scalar(gamma) => {
+            if !(gamma > M::Real::ZERO && gamma.is_finite()) {
+                return Err(Error::value("gamma", gamma.to_f64(), "positive and finite"));
+            }
+            sample.scale(M::Real::ONE / gamma.sqrt());
+            Ok(())
+        }
+        Noise::Full(gamma) => {
+            Error::check_length("gamma", gamma.len(), root.len())?;
+            check_symmetric("gamma", gamma, sample.rows())?;
+            root.copy_from_slice(gamma);
+            sample.whiten(root)
+        }
+    }
+}
+
+/// The numbers of [`Evidence`] that outlive a look at the sample.
+#[derive(Clone, Copy)]
+pub struct Known<T> {
+    /// ‖ē‖²
+    pub squared_error: T,
+    /// tr φ̄Pφ̄ᵀ, if it was asked for
+    pub leverage: T,
+    measurements: usize,
+}
+
+impl<T: Real> Known<T> {
+    /// Refuses a whitened sample that is too large to compute with.
+    #[inline(always)]
+    pub fn of<M: Memory<Real = T>>(sample: &Sample<'_, M>) -> Result<Self, Error> {
+        let (regressors, squared_error) = (sample.squared_regressors(), sample.squared_error());
+        if !(regressors <= T::CEILING) {
+            if let Some(index) = sample.regressors().iter().position(|x| !x.is_finite()) {
+                return Err(not_finite("phi", index, sample.regressors()[index]));
+            }
+            return Err(out_of_range("phi (its squared length)", regressors));
+        }
+        if !squared_error.is_finite() {
+            return Err(out_of_range("error (squared and whitened)", squared_error));
+        }
+        let measurements = sample.errors().len();
+        Ok(Self { squared_error, leverage: T::ZERO, measurements })
+    }
+
+    /// Γ ← Γ/weight.
+    pub fn weigh(&mut self, weight: T) -> Result<(), Error> {
+        if !(weight > T::ZERO && weight <= T::ONE) {
+            return Err(Error::value("weight", weight.to_f64(), "(0, 1]"));
+        }
+        self.squared_error *= weight;
+        self.leverage *= weight;
+        Ok(())
+    }
+
+    /// The same with a look at the sample and at P.
+    #[inline(always)]
+    pub fn evidence<'a, 'b, M: Memory<Real = T>>(
+        &self,
+        sample: &'a Sample<'b, M>,
+        factor: &'a Factor<M>,
+        samples: u64,
+    ) -> Evidence<'a, 'b, M> {
+        let Self { squared_error, leverage, measurements } = *self;
+        Evidence { sample, factor, squared_error, leverage, measurements, samples }
+    }
+}
+
+/// Which part of a sample with an innovation that is too large is to blame.
+#[cold]
+fn blame<T: Real>(phi: &[T], y: &[T], largest: T) -> Error {
+    for (parameter, values) in [("phi", phi), ("y", y)] {
+        if let Some(index) = values.iter().position(|x| !x.is_finite()) {
+            return not_finite(parameter, index, values[index]);
+        }
+    }
+    out_of_range("error (y - phi theta)", largest)
+}
+
+#[cold]
+fn not_finite<T: Real>(parameter: &'static str, index: usize, value: T) -> Error {
+    let allowed = "finite numbers";
+    Error::Value { parameter, index: Some(index), value: value.to_f64(), allowed }
+}
+
+#[cold]
+fn out_of_range<T: Real>(parameter: &'static str, value: T) -> Error {
+    Error::Range { parameter, value: value.to_f64(), limit: T::CEILING.to_f64() }
+}

@@ -1,0 +1,53 @@
+//! Recursive least squares with generalized forgetting.
+//!
+//! An [`Estimator`] follows the parameters θ of y = φθ + noise, sample by sample. It combines
+//! three independent choices: *where* to forget (a rule, [`rules`]), *how much* (a rate,
+//! [`rates`]) and *how far to trust* a sample (a [`weighting`] and the noise covariance Γ).
+//!
+//! The covariance is kept as U D Uᵀ and nothing is ever subtracted from it, so that it stays
+//! positive definite for any input, in `f32` too. A sample that cannot be used is refused with
+//! an error and leaves every bit of the estimator as it was.
+//!
+//! No standard library, no `unsafe`, no allocation in an update. Without the feature `alloc`
+//! (on by default) there is no allocation at all, and sizes are fixed ([`Fixed`]).
+#![no_std]
+#![forbid(unsafe_code)]
+
+#[cfg(feature = "alloc")]
+extern crate alloc;
+
+mod directions;
+mod error;
+mod estimator;
+pub mod factor;
+mod intake;
+mod measure;
+mod memory;
+pub mod parameter;
+mod prior;
+pub mod rates;
+mod real;
+mod root;
+pub mod rules;
+mod sample;
+#[cfg(feature = "alloc")]
+pub mod saved;
+pub mod state;
+pub mod weighting;
+mod work;
+
+pub use error::Error;
+pub use estimator::{Estimator, Update};
+pub use factor::Factor;
+pub use intake::Noise;
+#[cfg(feature = "alloc")]
+pub use memory::Dynamic;
+pub use memory::{Buffer, Fixed, Grid, Memory, Packed, Size};
+pub use prior::Prior;
+pub use rates::{Constant, Rate};
+pub use real::Real;
+pub use root::Root;
+pub use rules::{Exponential, ExponentialResetting, Forgetting, NoForgetting, Skip, Subspace};
+pub use sample::Sample;
+pub use weighting::{Equal, Weighting};
+pub use work::Work;

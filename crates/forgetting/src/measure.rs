@@ -1,0 +1,48 @@
+//! Measure and correct: R₊ = R̄ + φᵀΓ⁻¹φ and θ₊ = θ + R₊⁻¹φᵀΓ⁻¹(y − φθ).
+
+use crate::factor::kernel::{add_scaled, dot};
+use crate::{Factor, Memory, Real, Sample};
+
+/// tr φ̄Pφ̄ᵀ
+#[inline(always)]
+pub fn leverage<M: Memory>(factor: &Factor<M>, sample: &Sample<'_, M>) -> M::Real {
+    (0..sample.rows()).fold(M::Real::ZERO, |sum, i| sum + factor.leverage(sample.row(i)))
+}
+
+/// Measures and corrects, row by row; returns the leverage with the P of before.
+///
+/// Whitened rows are independent: after each, what the later ones still tell is their
+/// innovation less what the correction explains.
+#[inline(always)]
+pub fn measure<M: Memory>(
+    factor: &mut Factor<M>,
+    sample: &Sample<'_, M>,
+    gain: &mut [M::Real],
+    theta: &mut [M::Real],
+    remaining: &mut M::Errors,
+) -> M::Real {
+    let n = factor.parameters();
+    if sample.rows() == 1 {
+        let measured = factor.add_information(sample.row(0), gain);
+        for (theta, &error) in theta.chunks_exact_mut(n).zip(sample.error(0)) {
+            add_scaled(theta, error / measured.variance, gain);
+        }
+        return measured.leverage;
+    }
+    let leverage = leverage(factor, sample);
+    let (m, remaining) = (sample.error(0).len(), remaining.as_mut());
+    remaining[..sample.errors().len()].copy_from_slice(sample.errors());
+    for i in 0..sample.rows() {
+        let measured = factor.add_information(sample.row(i), gain);
+        let (used, later) = remaining.split_at_mut((i + 1) * m);
+        let used = &mut used[i * m..];
+        used.iter_mut().for_each(|error| *error /= measured.variance);
+        for (theta, &step) in theta.chunks_exact_mut(n).zip(used.iter()) {
+            add_scaled(theta, step, gain);
+        }
+        for (k, errors) in (i + 1..sample.rows()).zip(later.chunks_exact_mut(m)) {
+            add_scaled(errors, -dot(sample.row(k), gain), used);
+        }
+    }
+    leverage
+}

@@ -1,0 +1,241 @@
+//! Where an estimator keeps its numbers: on the stack, of a size known to the compiler
+//! ([`Fixed`]), or on the heap, of a size known when it is made ([`Dynamic`]).
+//!
+//! The algorithms see slices only, so that both give the same bits.
+
+use crate::Real;
+use core::fmt::Debug;
+use core::marker::PhantomData;
+
+/// A block of numbers that is read and written as one slice.
+pub trait Buffer<T>: Clone + Debug + Send + Sync + AsRef<[T]> + AsMut<[T]> {}
+impl<T, B: Clone + Debug + Send + Sync + AsRef<[T]> + AsMut<[T]>> Buffer<T> for B {}
+
+/// The sizes of an estimation problem, and buffers to match.
+///
+/// | symbol | method | meaning |
+/// |---|---|---|
+/// | n | `parameters` | parameters of each target |
+/// | p | `rows` | rows of φ, measurements a sample, that share one θ |
+/// | m | `targets` | parameter vectors that share φ and one P |
+pub trait Memory: Copy + Debug + Send + Sync + 'static {
+    /// The number type.
+    type Real: Real;
+    /// n numbers
+    type Vector: Buffer<Self::Real>;
+    /// n (n − 1) / 2 numbers: the columns of U above its unit diagonal
+    type Packed: Buffer<Self::Real>;
+    /// n x n numbers
+    type Square: Buffer<Self::Real>;
+    /// p x n numbers, row by row
+    type Rows: Buffer<Self::Real>;
+    /// p x p numbers
+    type Noise: Buffer<Self::Real>;
+    /// p x m numbers, row by row
+    type Errors: Buffer<Self::Real>;
+    /// m x n numbers, one target after the other
+    type Parameters: Buffer<Self::Real>;
+
+    /// n
+    fn parameters(&self) -> usize;
+    /// p
+    fn rows(&self) -> usize;
+    /// m
+    fn targets(&self) -> usize;
+
+    /// n zeros
+    fn vector(&self) -> Self::Vector;
+    /// n (n − 1) / 2 zeros
+    fn packed(&self) -> Self::Packed;
+    /// n x n zeros
+    fn square(&self) -> Self::Square;
+    /// p x n zeros
+    fn regressors(&self) -> Self::Rows;
+    /// p x p zeros
+    fn noise(&self) -> Self::Noise;
+    /// p x m zeros
+    fn errors(&self) -> Self::Errors;
+    /// m x n zeros
+    fn theta(&self) -> Self::Parameters;
+}
+
+/// `B` blocks of `A` numbers on the stack.
+#[derive(Clone, Copy, Debug)]
+pub struct Grid<T, const A: usize, const B: usize>([[T; A]; B]);
+
+impl<T, const A: usize, const B: usize> AsRef<[T]> for Grid<T, A, B> {
+    #[inline(always)]
+    fn as_ref(&self) -> &[T] {
+        self.0.as_flattened()
+    }
+}
+
+impl<T, const A: usize, const B: usize> AsMut<[T]> for Grid<T, A, B> {
+    #[inline(always)]
+    fn as_mut(&mut self) -> &mut [T] {
+        self.0.as_flattened_mut()
+    }
+}
+
+/// A number of parameters for which the packed triangle has a type (1 to 32).
+pub trait Packed<T> {
+    /// n (n − 1) / 2 numbers
+    type Triangle: Buffer<T>;
+    /// zeros
+    fn triangle() -> Self::Triangle;
+}
+
+/// The size `N` as a type.
+#[derive(Clone, Copy, Debug)]
+pub struct Size<const N: usize>;
+
+macro_rules! packed {
+    ($($n:literal)*) => {$(
+        impl<T: Real> Packed<T> for Size<$n> {
+            type Triangle = [T; $n * ($n - 1) / 2];
+            fn triangle() -> Self::Triangle {
+                [T::ZERO; $n * ($n - 1) / 2]
+            }
+        }
+    )*};
+}
+packed!(1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31 32);
+
+/// Sizes known to the compiler: `N` parameters (1 to 32), `P` rows, `M` targets; no heap.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Fixed<T, const N: usize, const P: usize = 1, const M: usize = 1>(PhantomData<T>);
+
+impl<T, const N: usize, const P: usize, const M: usize> Fixed<T, N, P, M> {
+    /// These sizes.
+    pub const fn new() -> Self {
+        Self(PhantomData)
+    }
+}
+
+impl<T: Real, const N: usize, const P: usize, const M: usize> Memory for Fixed<T, N, P, M>
+where
+    Size<N>: Packed<T>,
+{
+    type Real = T;
+    type Vector = [T; N];
+    type Packed = <Size<N> as Packed<T>>::Triangle;
+    type Square = Grid<T, N, N>;
+    type Rows = Grid<T, N, P>;
+    type Noise = Grid<T, P, P>;
+    type Errors = Grid<T, M, P>;
+    type Parameters = Grid<T, N, M>;
+
+    #[inline(always)]
+    fn parameters(&self) -> usize {
+        N
+    }
+    #[inline(always)]
+    fn rows(&self) -> usize {
+        P
+    }
+    #[inline(always)]
+    fn targets(&self) -> usize {
+        M
+    }
+    fn vector(&self) -> [T; N] {
+        [T::ZERO; N]
+    }
+    fn packed(&self) -> Self::Packed {
+        Size::<N>::triangle()
+    }
+    fn square(&self) -> Self::Square {
+        Grid([[T::ZERO; N]; N])
+    }
+    fn regressors(&self) -> Self::Rows {
+        Grid([[T::ZERO; N]; P])
+    }
+    fn noise(&self) -> Self::Noise {
+        Grid([[T::ZERO; P]; P])
+    }
+    fn errors(&self) -> Self::Errors {
+        Grid([[T::ZERO; M]; P])
+    }
+    fn theta(&self) -> Self::Parameters {
+        Grid([[T::ZERO; N]; M])
+    }
+}
+
+#[cfg(feature = "alloc")]
+pub use dynamic::Dynamic;
+
+#[cfg(feature = "alloc")]
+mod dynamic {
+    use super::{Memory, PhantomData};
+    use crate::{Error, Real};
+    use alloc::{vec, vec::Vec};
+
+    /// Sizes chosen when the estimator is made; its buffers are on the heap.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Dynamic<T> {
+        parameters: usize,
+        rows: usize,
+        targets: usize,
+        real: PhantomData<T>,
+    }
+
+    impl<T: Real> Dynamic<T> {
+        /// `parameters` n, `rows` p and `targets` m, each from 1 to 2¹⁵.
+        ///
+        /// # Errors
+        /// [`Error::Value`] names the size that is out of range.
+        pub fn new(parameters: usize, rows: usize, targets: usize) -> Result<Self, Error> {
+            let sizes = [("parameters", parameters), ("rows", rows), ("targets", targets)];
+            for (name, size) in sizes {
+                if !(1..=1 << 15).contains(&size) {
+                    return Err(Error::value(name, size as f64, "whole numbers from 1 to 32768"));
+                }
+            }
+            Ok(Self { parameters, rows, targets, real: PhantomData })
+        }
+    }
+
+    impl<T: Real> Memory for Dynamic<T> {
+        type Real = T;
+        type Vector = Vec<T>;
+        type Packed = Vec<T>;
+        type Square = Vec<T>;
+        type Rows = Vec<T>;
+        type Noise = Vec<T>;
+        type Errors = Vec<T>;
+        type Parameters = Vec<T>;
+
+        #[inline(always)]
+        fn parameters(&self) -> usize {
+            self.parameters
+        }
+        #[inline(always)]
+        fn rows(&self) -> usize {
+            self.rows
+        }
+        #[inline(always)]
+        fn targets(&self) -> usize {
+            self.targets
+        }
+        fn vector(&self) -> Vec<T> {
+            vec![T::ZERO; self.parameters]
+        }
+        fn packed(&self) -> Vec<T> {
+            vec![T::ZERO; self.parameters * (self.parameters - 1) / 2]
+        }
+        fn square(&self) -> Vec<T> {
+            vec![T::ZERO; self.parameters * self.parameters]
+        }
+        fn regressors(&self) -> Vec<T> {
+            vec![T::ZERO; self.rows * self.parameters]
+        }
+        fn noise(&self) -> Vec<T> {
+            vec![T::ZERO; self.rows * self.rows]
+        }
+        fn errors(&self) -> Vec<T> {
+            vec![T::ZERO; self.rows * self.targets]
+        }
+        fn theta(&self) -> Vec<T> {
+            vec![T::ZERO; self.targets * self.parameters]
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! What is believed before the first sample: θ₀ and P₀.
+
+#[cfg(feature = "alloc")]
+use crate::state::Visitor;
+use crate::{Error, Factor, Memory, Real};
+
+/// P₀ as it was given.
+#[derive(Clone, Debug)]
+enum Covariance<M: Memory> {
+    Scalar(M::Real),
+    Diagonal(M::Vector),
+    Dense(Factor<M>),
+}
+
+/// θ₀ and P₀.
+#[derive(Clone, Debug)]
+pub struct Prior<M: Memory> {
+    memory: M,
+    theta: M::Parameters,
+    covariance: Covariance<M>,
+}
+
+impl<M: Memory> Prior<M> {
+    /// θ₀ = 0 and P₀ = `variance`·I.
+    ///
+    /// # Errors
+    /// [`Error::Value`] names `initial_covariance` unless it is positive and in range.
+    pub fn scalar(memory: M, variance: M::Real) -> Result<Self, Error> {
+        Factor::scalar(memory, variance)?;
+        Ok(Self { memory, theta: memory.theta(), covariance: Covariance::Scalar(variance) })
+    }
+
+    /// θ₀ = 0 and P₀ = diag(`variances`), n numbers.
+    ///
+    /// # Errors
+    /// [`Error`] names `initial_covariance`.
+    pub fn diagonal(memory: M, variances: &[M::Real]) -> Result<Self, Error> {
+        Factor::diagonal(memory, variances)?;
+        let mut diagonal = memory.vector();
+        diagonal.as_mut().copy_from_slice(variances);
+        Ok(Self { memory, theta: memory.theta(), covariance: Covariance::Diagonal(diagonal) })
+    }
+
+    /// θ₀ = 0 and P₀ = `covariance`, n x n numbers.
+    ///
+    /// # Errors
+    /// [`Error`] names `initial_covariance` unless it is symmetric and positive definite.
+    pub fn dense(memory: M, covariance: &[M::Real]) -> Result<Self, Error> {
+        let covariance = Covariance::Dense(Factor::dense(memory, covariance)?);
+        Ok(Self { memory, theta: memory.theta(), covariance })
+    }
+
+    /// The same P₀ with θ₀ = `theta`, m x n numbers, one target after the other.
+    ///
+    /// # Errors
+    /// [`Error`] names `initial_theta`: its length, or an element that is not finite.
+    pub fn with_theta(mut self, theta: &[M::Real]) -> Result<Self, Error> {
+        const NAME: &str = "initial_theta";
+        Error::check_length(NAME, theta.len(), self.theta.as_ref().len())?;
+        if let Some(index) = theta.iter().position(|x| !(x.abs() <= M::Real::CEILING)) {
+            return Err(Error::Value {
+                parameter: NAME,
+                index: Some(index),
+                value: theta[index].to_f64(),
+                allowed: "finite numbers",
+            });
+        }
+        self.theta.as_mut().copy_from_slice(theta);
+        Ok(self)
+    }
+
+    /// The sizes it was made for.
+    pub fn memory(&self) -> M {
+        self.memory
+    }
+
+    /// θ₀, m x n numbers.
+    pub fn theta(&self) -> &M::Parameters {
+        &self.theta
+    }
+
+    /// P₀.
+    pub fn factor(&self) -> Factor<M> {
+        match &self.covariance {
+            Covariance::Scalar(variance) => Factor::of(self.memory, |_| *variance),
+            Covariance::Diagonal(variances) => Factor::of(self.memory, |i| variances.as_ref()[i]),
+            Covariance::Dense(factor) => factor.clone(),
+        }
+    }
+
+    /// Whether every number is one that could have been given.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn is_sound(&self) -> bool {
+        let theta = self.theta.as_ref();
+        theta.iter().all(|x| x.abs() <= M::Real::CEILING) && self.factor().is_sound()
+    }
+
+    #[cfg(feature = "alloc")]
+    /// How P₀ was given: 0 a scalar, 1 a diagonal, 2 a matrix.
+    pub(crate) fn form(&self) -> u8 {
+        match self.covariance {
+            Covariance::Scalar(_) => 0,
+            Covariance::Diagonal(_) => 1,
+            Covariance::Dense(_) => 2,
+        }
+    }
+
+    #[cfg(feature = "alloc")]
+    /// A prior of this form, its numbers to be restored by [`Prior::visit`].
+    pub(crate) fn of_form(memory: M, form: u8) -> Result<Self, Error> {
+        let covariance = match form {
+            0 => Covariance::Scalar(M::Real::ONE),
+            1 => Covariance::Diagonal(memory.vector()),
+            2 => Covariance::Dense(Factor::scalar(memory, M::Real::ONE)?),
+            _ => return Err(Error::State { reason: "an unknown form of the initial covariance" }),
+        };
+        Ok(Self { memory, theta: memory.theta(), covariance })
+    }
+
+    /// Visits every number, to save or restore it.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
+        visitor.reals(self.theta.as_mut());
+        match &mut self.covariance {
+            Covariance::Scalar(variance) => visitor.reals(core::slice::from_mut(variance)),
+            Covariance::Diagonal(variances) => visitor.reals(variances.as_mut()),
+            Covariance::Dense(factor) => factor.visit(visitor),
+        }
+    }
+}

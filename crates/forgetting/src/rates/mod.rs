@@ -1,0 +1,187 @@
+//! How much to forget: one file per design of the forgetting factor λ_k, one line per design in
+//! the registry below. Every rule that uses a forgetting factor takes any of them.
+
+use crate::parameter::{Parameter, Value, Values};
+use crate::state::{State, Visitor};
+use crate::{Error, Factor, Memory, Sample};
+
+/// What a rate or a weighting knows of a sample.
+#[derive(Clone, Copy, Debug)]
+pub struct Evidence<'a, 'b, M: Memory> {
+    /// the whitened sample
+    pub sample: &'a Sample<'b, M>,
+    /// P, before forgetting in `forgetting_factor`, after the measurement in `learn`
+    pub factor: &'a Factor<M>,
+    /// ‖ē‖² over rows and targets, before the sample was used
+    pub squared_error: M::Real,
+    /// tr φ̄Pφ̄ᵀ with the P before forgetting, if [`Rate::needs_leverage`], else 0
+    pub leverage: M::Real,
+    /// number of scalar measurements: rows times targets
+    pub measurements: usize,
+    /// samples used so far, without this one
+    pub samples: u64,
+}
+
+/// What the registry says of a rate.
+#[derive(Clone, Copy, Debug)]
+pub struct AboutRate {
+    /// the registry name, which is also the name of the file
+    pub name: &'static str,
+    /// the name of the type
+    pub type_name: &'static str,
+    /// the text of the file; its header (`//!`) is the documentation
+    pub source: &'static str,
+    /// the parameters
+    pub parameters: &'static [Parameter],
+}
+
+/// A design of the forgetting factor.
+pub trait Rate<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
+    /// What the design remembers from sample to sample.
+    type State: State<M::Real>;
+
+    /// The rate with these parameter values.
+    ///
+    /// # Errors
+    /// [`Error`] names the parameter, its value and the allowed range.
+    fn configure(values: &dyn Values, memory: M) -> Result<Self, Error>;
+
+    /// Names each parameter with its value: [`Rate::configure`] takes them back.
+    fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>));
+
+    /// The state before the first sample.
+    fn start(&self, memory: M) -> Self::State;
+
+    /// Whether the design uses the leverage, which costs O(n²/2) more.
+    #[inline(always)]
+    fn needs_leverage(&self) -> bool {
+        false
+    }
+
+    /// λ_k in (0, 1], from what is known before the sample is used.
+    fn forgetting_factor(&self, state: &Self::State, evidence: &Evidence<'_, '_, M>) -> M::Real;
+
+    /// Takes note of the sample, after it was used with the factor `lambda`.
+    #[inline(always)]
+    fn learn(&self, _: &mut Self::State, _: &Evidence<'_, '_, M>, lambda: M::Real) {
+        let _ = lambda;
+    }
+}
+
+macro_rules! registry {
+    ($($module:ident :: $Rate:ident,)*) => {
+        $(
+            pub mod $module;
+            pub use $module::$Rate;
+        )*
+
+        /// Every rate: its name, parameters and documentation.
+        pub const RATES: &[AboutRate] = &[$($module::ABOUT),*];
+
+        /// Any rate of the registry, chosen by name at run time.
+        #[derive(Clone, Debug)]
+        #[allow(missing_docs, reason = "each variant is the rate of that name")]
+        pub enum AnyRate<M: Memory> {
+            $($Rate($Rate<M>),)*
+        }
+
+        /// The state of any rate of the registry.
+        #[derive(Clone, Debug)]
+        #[allow(missing_docs, reason = "each variant is the state of the rate of that name")]
+        pub enum AnyRateState<M: Memory> {
+            $($Rate(<$Rate<M> as Rate<M>>::State),)*
+        }
+
+        impl<M: Memory> AnyRate<M> {
+            /// The rate called `name`, with these parameter values.
+            ///
+            /// # Errors
+            /// [`Error::Unknown`] for a name that is not in the registry, else those of the rate.
+            pub fn named(name: &str, values: &dyn Values, memory: M) -> Result<Self, Error> {
+                match name {
+                    $(stringify!($module) => {
+                        <$Rate<M> as Rate<M>>::configure(values, memory).map(Self::$Rate)
+                    })*
+                    _ => Err(Error::Unknown { parameter: "rate" }),
+                }
+            }
+
+            /// The entry of this rate in [`RATES`].
+            pub fn about(&self) -> AboutRate {
+                match self {
+                    $(Self::$Rate(_) => $module::ABOUT,)*
+                }
+            }
+        }
+
+        impl<M: Memory> State<M::Real> for AnyRateState<M> {
+            fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
+                match self {
+                    $(Self::$Rate(state) => state.visit(visitor),)*
+                }
+            }
+        }
+
+        impl<M: Memory> Rate<M> for AnyRate<M> {
+            type State = AnyRateState<M>;
+
+            fn configure(_: &dyn Values, _: M) -> Result<Self, Error> {
+                Err(Error::Missing { parameter: "rate" })
+            }
+
+            fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>)) {
+                match self {
+                    $(Self::$Rate(rate) => rate.describe(each),)*
+                }
+            }
+
+            fn start(&self, memory: M) -> Self::State {
+                match self {
+                    $(Self::$Rate(rate) => AnyRateState::$Rate(rate.start(memory)),)*
+                }
+            }
+
+            #[inline(always)]
+            fn needs_leverage(&self) -> bool {
+                match self {
+                    $(Self::$Rate(rate) => rate.needs_leverage(),)*
+                }
+            }
+
+            #[inline(always)]
+            fn forgetting_factor(
+                &self,
+                state: &Self::State,
+                evidence: &Evidence<'_, '_, M>,
+            ) -> M::Real {
+                match (self, state) {
+                    $((Self::$Rate(rate), AnyRateState::$Rate(state)) => {
+                        rate.forgetting_factor(state, evidence)
+                    })*
+                    #[allow(unreachable_patterns, reason = "there may be one rate only")]
+                    _ => <M::Real as crate::Real>::ONE,
+                }
+            }
+
+            #[inline(always)]
+            fn learn(
+                &self,
+                state: &mut Self::State,
+                evidence: &Evidence<'_, '_, M>,
+                lambda: M::Real,
+            ) {
+                match (self, state) {
+                    $((Self::$Rate(rate), AnyRateState::$Rate(state)) => {
+                        rate.learn(state, evidence, lambda);
+                    })*
+                    #[allow(unreachable_patterns, reason = "there may be one rate only")]
+                    _ => {}
+                }
+            }
+        }
+    };
+}
+
+registry! {
+    constant::Constant,
+}

@@ -1,0 +1,92 @@
+//! Forgets towards a fixed information matrix, so that in silence P returns to its inverse.
+//!
+//!     F_k = (1 − λ_k) (R_k − R_∞)              GF-RLS (55)
+//!     R̄ = λ R + (1 − λ) R_∞                    the form used: D ← D / λ, then one information
+//!                                              row √(1 − λ) r for each row r of a root of R_∞
+//!
+//! | symbol | name | range | default |
+//! |---|---|---|---|
+//! | R_∞ | information | a number c ≥ 0 (c·I), n numbers ≥ 0 or an n x n positive semidefinite matrix | 0.01 |
+//!
+//! - Proper (A1): if R₀ ≥ R_∞.
+//! - P̄ bounded above without excitation (A2): if R_∞ > 0: R_k ≥ λᵏR₀ + (1 − λᵏ)R_∞.
+//! - P bounded below (A3): if λ_k ≤ λ_max < 1 and φ is bounded.
+//! - Cost: O((p + r) n²), r the rank of R_∞; O(n³) for a full one. State: P alone.
+//! - Use it when what is known without data should come back in silence. `cyclic_resetting`
+//!   does nearly the same in O(n²).
+//!
+//! Reference: A. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
+//! stability and robustness guarantees*, IEEE Transactions on Automatic Control, 2024, V-E.
+
+use super::{About, Claim, Forgetting, Forgotten, Step};
+use crate::parameter::{Kind, Parameter, Range, Value, Values};
+use crate::root::Root;
+use crate::{Error, Memory, Real};
+
+const INFORMATION: Parameter = Parameter::elements(
+    "information",
+    Kind::Matrix,
+    0.01,
+    Range::NON_NEGATIVE,
+    "information that silence returns to: c for c*I, n numbers for a diagonal, or n x n",
+);
+
+/// The registry entry.
+pub const ABOUT: About = About {
+    name: "exponential_resetting",
+    type_name: "ExponentialResetting",
+    source: include_str!("exponential_resetting.rs"),
+    parameters: &[INFORMATION],
+    forgetting_factor: true,
+    largest_rows: None,
+    proper: Claim::If("R_0 >= information"),
+    bounded_above: Claim::If("information is positive definite"),
+    bounded_below: Claim::If("forgetting factor <= lambda_max < 1, regressors bounded"),
+    cost: "O((p + r) n^2), r = rank of information",
+};
+
+/// Forgets towards R_∞; see [`self`](crate::rules::exponential_resetting).
+#[derive(Clone, Debug)]
+pub struct ExponentialResetting<M: Memory> {
+    information: Root<M>,
+}
+
+impl<M: Memory> ExponentialResetting<M> {
+    /// Towards the information matrix with this root.
+    pub fn new(information: Root<M>) -> Self {
+        Self { information }
+    }
+}
+
+impl<M: Memory> Forgetting<M> for ExponentialResetting<M> {
+    type State = ();
+
+    fn configure(values: &dyn Values, memory: M) -> Result<Self, Error> {
+        Root::configure(&INFORMATION, values, memory).map(Self::new)
+    }
+
+    fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>)) {
+        self.information.describe(INFORMATION.name, each);
+    }
+
+    fn start(&self, _: M) {}
+
+    #[inline(always)]
+    fn forget(&self, (): &mut (), step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
+        let lambda = step.forgetting_factor;
+        if lambda >= M::Real::ONE {
+            return Ok(Forgotten::rank(0));
+        }
+        step.factor.scale(M::Real::ONE / lambda)?;
+        let weight = (M::Real::ONE - lambda).sqrt();
+        let n = step.factor.parameters();
+        let scaled = &mut step.work.first.as_mut()[..n];
+        for row in self.information.rows() {
+            for (x, &r) in scaled.iter_mut().zip(row) {
+                *x = weight * r;
+            }
+            step.factor.add_information(scaled, step.work.gain.as_mut());
+        }
+        Ok(Forgotten::rank(n))
+    }
+}

@@ -1,0 +1,195 @@
+//! Where to forget: one file per rule, one line per rule in the registry below.
+//!
+//! A rule is the step R̄ = R − F of the recursion (GF-RLS, Theorem 1). It sees P and the whitened
+//! sample, never θ. To add one, write its file and add its line: its tests, its documentation,
+//! its Python class and its place on the command line follow.
+
+mod about;
+
+pub use about::{About, Claim};
+
+use crate::parameter::{Value, Values};
+use crate::state::{State, Visitor};
+use crate::{Error, Factor, Memory, Sample, Work};
+
+/// What a rule is given at each sample.
+#[derive(Debug)]
+pub struct Step<'a, 'b, M: Memory> {
+    /// P, with the information of all samples before this one
+    pub factor: &'a mut Factor<M>,
+    /// the whitened sample; rows that are dropped are neither forgotten nor learned from
+    pub sample: &'a mut Sample<'b, M>,
+    /// λ_k in (0, 1]
+    pub forgetting_factor: M::Real,
+    /// buffers to use freely
+    pub work: &'a mut Work<M>,
+}
+
+/// What a rule did with a sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Forgotten {
+    /// the rank of F: the number of directions that lost information
+    pub rank: usize,
+    /// why the sample is left out altogether, if it is
+    pub skipped: Option<Skip>,
+}
+
+impl Forgotten {
+    /// F of this rank.
+    #[inline(always)]
+    pub fn rank(rank: usize) -> Self {
+        Self { rank, skipped: None }
+    }
+
+    /// F = 0, and nothing is learned from the sample either.
+    #[inline(always)]
+    pub fn skipped(reason: Skip) -> Self {
+        Self { rank: 0, skipped: Some(reason) }
+    }
+}
+
+/// Why a sample was left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Skip {
+    /// the regressor is too small to count as information
+    DeadZone,
+    /// a value of the sample is missing
+    Missing,
+}
+
+impl Skip {
+    /// Every reason; its position plus one is its code in a record of results (0: not skipped).
+    pub const ALL: &'static [Self] = &[Self::DeadZone, Self::Missing];
+
+    /// The reason in a word.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::DeadZone => "dead_zone",
+            Self::Missing => "missing",
+        }
+    }
+
+    /// The code of this reason: 1 and up.
+    pub fn code(self) -> u8 {
+        self as u8 + 1
+    }
+}
+
+/// A forgetting rule: P ← P̄ = (P⁻¹ − F)⁻¹.
+pub trait Forgetting<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
+    /// What the rule remembers from sample to sample beside P.
+    type State: State<M::Real>;
+
+    /// The rule with these parameter values, for a problem of these sizes.
+    ///
+    /// # Errors
+    /// [`Error`] names the parameter, its value and the allowed range.
+    fn configure(values: &dyn Values, memory: M) -> Result<Self, Error>;
+
+    /// Names each parameter with its value: [`Forgetting::configure`] takes them back.
+    fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>));
+
+    /// The state before the first sample.
+    fn start(&self, memory: M) -> Self::State;
+
+    /// Forgets. Changes P, may rotate, scale or drop rows of the sample.
+    ///
+    /// # Errors
+    /// [`Error::Range`] when P would overflow; then nothing has changed.
+    fn forget(&self, state: &mut Self::State, step: Step<'_, '_, M>) -> Result<Forgotten, Error>;
+}
+
+macro_rules! registry {
+    ($($module:ident :: $Rule:ident,)*) => {
+        $(
+            pub mod $module;
+            pub use $module::$Rule;
+        )*
+
+        /// Every rule: its name, parameters, guarantees and documentation.
+        pub const RULES: &[About] = &[$($module::ABOUT),*];
+
+        /// Any rule of the registry, chosen by name at run time.
+        #[derive(Clone, Debug)]
+        #[allow(missing_docs, reason = "each variant is the rule of that name")]
+        pub enum Rule<M: Memory> {
+            $($Rule($Rule<M>),)*
+        }
+
+        /// The state of any rule of the registry.
+        #[derive(Clone, Debug)]
+        #[allow(missing_docs, reason = "each variant is the state of the rule of that name")]
+        pub enum RuleState<M: Memory> {
+            $($Rule(<$Rule<M> as Forgetting<M>>::State),)*
+        }
+
+        impl<M: Memory> Rule<M> {
+            /// The rule called `name`, with these parameter values.
+            ///
+            /// # Errors
+            /// [`Error::Unknown`] for a name that is not in the registry, else those of the rule.
+            pub fn named(name: &str, values: &dyn Values, memory: M) -> Result<Self, Error> {
+                match name {
+                    $(stringify!($module) => {
+                        <$Rule<M> as Forgetting<M>>::configure(values, memory).map(Self::$Rule)
+                    })*
+                    _ => Err(Error::Unknown { parameter: "rule" }),
+                }
+            }
+
+            /// The entry of this rule in [`RULES`].
+            pub fn about(&self) -> About {
+                match self {
+                    $(Self::$Rule(_) => $module::ABOUT,)*
+                }
+            }
+        }
+
+        impl<M: Memory> State<M::Real> for RuleState<M> {
+            fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
+                match self {
+                    $(Self::$Rule(state) => state.visit(visitor),)*
+                }
+            }
+        }
+
+        impl<M: Memory> Forgetting<M> for Rule<M> {
+            type State = RuleState<M>;
+
+            fn configure(_: &dyn Values, _: M) -> Result<Self, Error> {
+                Err(Error::Missing { parameter: "rule" })
+            }
+
+            fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>)) {
+                match self {
+                    $(Self::$Rule(rule) => rule.describe(each),)*
+                }
+            }
+
+            fn start(&self, memory: M) -> Self::State {
+                match self {
+                    $(Self::$Rule(rule) => RuleState::$Rule(rule.start(memory)),)*
+                }
+            }
+
+            #[inline(always)]
+            fn forget(
+                &self,
+                state: &mut Self::State,
+                step: Step<'_, '_, M>,
+            ) -> Result<Forgotten, Error> {
+                match (self, state) {
+                    $((Self::$Rule(rule), RuleState::$Rule(state)) => rule.forget(state, step),)*
+                    _ => Err(Error::State { reason: "the state is that of another rule" }),
+                }
+            }
+        }
+    };
+}
+
+registry! {
+    none::NoForgetting,
+    exponential::Exponential,
+    exponential_resetting::ExponentialResetting,
+    subspace::Subspace,
+}

@@ -1,0 +1,64 @@
+//! Never forgets: plain recursive least squares.
+//!
+//!     F_k = 0                                  GF-RLS section V-A, (32)
+//!     R̄ = R                                    nothing to do
+//!
+//! | symbol | name | range | default |
+//! |---|---|---|---|
+//!
+//! - Proper (A1): always.
+//! - P̄ bounded above without excitation (A2): always, by P₀.
+//! - P bounded below (A3): no, P → 0 under persistent excitation; old data weigh as much as new.
+//! - Cost: O(p n²). State: P alone.
+//! - Use it for parameters that never change. With parameters that drift, the estimate lags more
+//!   and more.
+//!
+//! Reference: A. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
+//! stability and robustness guarantees*, IEEE Transactions on Automatic Control, 2024.
+
+use super::{About, Claim, Forgetting, Forgotten, Step};
+use crate::parameter::{Value, Values};
+use crate::{Error, Memory};
+use core::marker::PhantomData;
+
+/// The registry entry.
+pub const ABOUT: About = About {
+    name: "none",
+    type_name: "NoForgetting",
+    source: include_str!("none.rs"),
+    parameters: &[],
+    forgetting_factor: false,
+    largest_rows: None,
+    proper: Claim::Always,
+    bounded_above: Claim::Always,
+    bounded_below: Claim::No,
+    cost: "O(p n^2)",
+};
+
+/// Never forgets; see [`self`](crate::rules::none).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoForgetting<M>(PhantomData<M>);
+
+impl<M> NoForgetting<M> {
+    /// The rule.
+    pub fn new() -> Self {
+        Self(PhantomData)
+    }
+}
+
+impl<M: Memory> Forgetting<M> for NoForgetting<M> {
+    type State = ();
+
+    fn configure(_: &dyn Values, _: M) -> Result<Self, Error> {
+        Ok(Self::new())
+    }
+
+    fn describe(&self, _: &mut dyn FnMut(&'static str, Value<'_>)) {}
+
+    fn start(&self, _: M) {}
+
+    #[inline(always)]
+    fn forget(&self, (): &mut (), _: Step<'_, '_, M>) -> Result<Forgotten, Error> {
+        Ok(Forgotten::rank(0))
+    }
+}

@@ -1,0 +1,92 @@
+//! Forgets only in the directions that the sample informs (SIFt), and skips what is too small to inform.
+//!
+//!     φ̄ = W S Vᵀ, keep the q singular values ≥ threshold: φ_f = W_qᵀφ̄, y_f = W_qᵀȳ
+//!     F_k = (1 − λ_k) R φ_fᵀ (φ_f R φ_fᵀ)⁻¹ φ_f R        Lai & Bernstein 2024 (SIFt-RLS)
+//!     P̄ = P + (1 − λ)/λ · φ_fᵀ (φ_f R φ_fᵀ)⁻¹ φ_f        the form used: one dyad w wᵀ for each of
+//!                                                        q vectors w with w_iᵀ R w_j = δ_ij
+//!
+//! | symbol | name | range | default |
+//! |---|---|---|---|
+//! | √ε | threshold | (0, ∞) | 1e-6 |
+//!
+//! - Proper (A1): always.
+//! - P̄ bounded above without excitation (A2): always, for λ_k ≥ λ_min > 0:
+//!   R_k ≥ min(threshold²/(1 − λ_min), λ_min(R₀)) I.
+//! - P bounded below (A3): if λ_k ≤ λ_max < 1 and φ̄φ̄ᵀ ≤ β I:
+//!   R_k ≤ max(β/(1 − λ_max), λ_max(R₀)) I.
+//! - Cost: O(p n²), twice that of `exponential`. State: P alone.
+//! - The default rule. `threshold` is the smallest singular value of the whitened φ that counts
+//!   as information, in units of φ̄; set it above the noise of the regressors. Smaller ones are
+//!   neither forgotten nor accumulated.
+//!
+//! Reference: B. Lai, D. S. Bernstein, *SIFt-RLS: subspace of information forgetting recursive
+//! least squares*, arXiv 2404.10844, 2024; for one row, L. Cao, H. M. Schwartz, *A directional
+//! forgetting algorithm based on the decomposition of the information matrix*, Automatica 36, 2000.
+
+use super::{About, Claim, Forgetting, Forgotten, Skip, Step};
+use crate::directions::forget_along_sample;
+use crate::parameter::{Parameter, Range, Value, Values};
+use crate::{Error, Memory, Real};
+
+const THRESHOLD: Parameter = Parameter::real(
+    "threshold",
+    1e-6,
+    Range::POSITIVE,
+    "smallest singular value of the whitened regressor that counts as information (units of phi)",
+);
+
+/// The registry entry.
+pub const ABOUT: About = About {
+    name: "subspace",
+    type_name: "Subspace",
+    source: include_str!("subspace.rs"),
+    parameters: &[THRESHOLD],
+    forgetting_factor: true,
+    largest_rows: None,
+    proper: Claim::Always,
+    bounded_above: Claim::If("forgetting factor >= lambda_min > 0"),
+    bounded_below: Claim::If("forgetting factor <= lambda_max < 1, regressors bounded"),
+    cost: "O(p n^2)",
+};
+
+/// Forgets in the informed directions only; see [`self`](crate::rules::subspace).
+#[derive(Clone, Copy, Debug)]
+pub struct Subspace<M: Memory> {
+    threshold: M::Real,
+}
+
+impl<M: Memory> Subspace<M> {
+    /// With the smallest singular value of φ̄ that counts as information.
+    ///
+    /// # Errors
+    /// [`Error::Value`] unless `threshold` is positive.
+    pub fn new(threshold: M::Real) -> Result<Self, Error> {
+        Ok(Self { threshold: THRESHOLD.check(threshold)? })
+    }
+}
+
+impl<M: Memory> Forgetting<M> for Subspace<M> {
+    type State = ();
+
+    fn configure(values: &dyn Values, _: M) -> Result<Self, Error> {
+        Self::new(THRESHOLD.number(values)?)
+    }
+
+    fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>)) {
+        each(THRESHOLD.name, Value::Real(self.threshold.to_f64()));
+    }
+
+    fn start(&self, _: M) {}
+
+    #[inline(always)]
+    fn forget(&self, (): &mut (), mut step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
+        if step.sample.rows() > 1 {
+            step.sample.orthogonalize();
+        }
+        step.sample.keep_longer_than(self.threshold);
+        if step.sample.rows() == 0 {
+            return Ok(Forgotten::skipped(Skip::DeadZone));
+        }
+        forget_along_sample(&mut step).map(Forgotten::rank)
+    }
+}

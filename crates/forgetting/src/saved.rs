@@ -1,0 +1,124 @@
+//! Saved states: one portable, versioned and checked block of bytes for every language.
+//!
+//! | part | content |
+//! |---|---|
+//! | mark | `FGRLS` |
+//! | version | one byte, [`VERSION`] |
+//! | number type | one byte, 4 or 8: the bytes of a number |
+//! | sizes | n, p, m as 32-bit numbers |
+//! | form of P₀ | one byte |
+//! | rule, rate, weighting | each a name and its parameters by name |
+//! | numbers | the prior, then the state, in the order of `visit` |
+//! | check | CRC-32 of all before it |
+//!
+//! All numbers are little-endian. Numbers of the state are kept bit for bit.
+
+use crate::parameter::{Value, Values};
+use crate::rates::{AnyRate, Rate};
+use crate::rules::{Forgetting, Rule};
+use crate::state::Visitor;
+use crate::weighting::{AnyWeighting, Weighting};
+use crate::{Dynamic, Error, Estimator, Memory, Prior, Real};
+use alloc::{string::String, vec::Vec};
+
+mod read;
+mod write;
+
+/// The version of the format that is written, and the latest that is read.
+pub const VERSION: u8 = 1;
+const MARK: &[u8; 5] = b"FGRLS";
+
+/// An estimator of any size, rule, rate and weighting, chosen at run time.
+pub type AnyEstimator<T> =
+    Estimator<Rule<Dynamic<T>>, AnyRate<Dynamic<T>>, AnyWeighting<Dynamic<T>>, Dynamic<T>>;
+
+impl<T: Real> AnyEstimator<T> {
+    /// The estimator, configuration and state, as bytes.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] when a part of it is a function of the user's.
+    pub fn to_bytes(&self) -> Result<Vec<u8>, Error> {
+        let mut bytes = write::header(self);
+        let mut copy = self.clone();
+        let mut prior = self.prior().clone();
+        let mut numbers = write::Numbers(&mut bytes);
+        prior.visit(&mut numbers);
+        copy.visit(&mut numbers);
+        let check = crc32(&bytes);
+        bytes.extend_from_slice(&check.to_le_bytes());
+        Ok(bytes)
+    }
+
+    /// The estimator that [`Estimator::to_bytes`] saved.
+    ///
+    /// # Errors
+    /// [`Error::State`] says what is wrong with the bytes: another format, a later version,
+    /// another number type, a length that does not fit or a check that fails.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
+        let body = checked(bytes)?;
+        let mut reader = read::Reader::new(&body[MARK.len() + 1..]);
+        let mut estimator = read::header::<T>(&mut reader)?;
+        estimator.visit(&mut reader);
+        reader.finish()?;
+        if estimator.is_sound() {
+            Ok(estimator)
+        } else {
+            Err(Error::State { reason: "its numbers are not those of an estimator" })
+        }
+    }
+}
+
+/// The bytes of a number in a saved state: 4 or 8.
+///
+/// # Errors
+/// [`Error::State`] as for reading the state.
+pub fn number_type(bytes: &[u8]) -> Result<usize, Error> {
+    let body = checked(bytes)?;
+    body.get(MARK.len() + 1)
+        .map(|&width| usize::from(width))
+        .ok_or(Error::State { reason: "it is truncated" })
+}
+
+/// The bytes without their check, if they are of this format and unaltered.
+fn checked(bytes: &[u8]) -> Result<&[u8], Error> {
+    let refuse = |reason| Err(Error::State { reason });
+    if bytes.len() < MARK.len() || &bytes[..MARK.len()] != MARK {
+        return refuse("it is not a saved estimator");
+    }
+    match bytes.get(MARK.len()) {
+        None => return refuse("it is truncated"),
+        Some(&version) if version == 0 || version > VERSION => {
+            return refuse("it was written by a later version");
+        }
+        Some(_) => {}
+    }
+    if bytes.len() < MARK.len() + 5 {
+        return refuse("it is truncated");
+    }
+    let (body, check) = bytes.split_at(bytes.len() - 4);
+    if crc32(body).to_le_bytes() == check {
+        Ok(body)
+    } else {
+        refuse("it is truncated or altered: the check fails")
+    }
+}
+
+/// The cyclic redundancy check of IEEE 802.3.
+fn crc32(bytes: &[u8]) -> u32 {
+    let step = |crc: u32, &byte: &u8| {
+        (0..8).fold(crc ^ u32::from(byte), |crc, _| {
+            (crc >> 1) ^ (0xEDB8_8320 & (crc & 1).wrapping_neg())
+        })
+    };
+    !bytes.iter().fold(u32::MAX, step)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::crc32;
+
+    #[test]
+    fn the_check_is_the_standard_one() {
+        assert_eq!(crc32(b"123456789"), 0xCBF4_3926);
+    }
+}

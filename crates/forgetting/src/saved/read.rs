@@ -1,0 +1,164 @@
+//! Reading a state. Nothing here trusts the bytes: a length is checked before it is used.
+
+use super::{AnyEstimator, AnyRate, AnyWeighting, Dynamic, Error, Estimator, Memory, Prior};
+use super::{Real, Rule, String, Value, Values, Vec, Visitor};
+
+/// A place in the bytes, and whether they have run out.
+pub struct Reader<'a> {
+    bytes: &'a [u8],
+    truncated: bool,
+}
+
+impl<'a> Reader<'a> {
+    pub fn new(bytes: &'a [u8]) -> Self {
+        Self { bytes, truncated: false }
+    }
+
+    /// Nothing may be missing and nothing may be left.
+    pub fn finish(&self) -> Result<(), Error> {
+        match (self.truncated, self.bytes) {
+            (false, []) => Ok(()),
+            (true, _) => Err(Error::State { reason: "it is truncated" }),
+            (false, _) => Err(Error::State { reason: "it is longer than it should be" }),
+        }
+    }
+
+    fn take(&mut self, count: usize) -> Result<&'a [u8], Error> {
+        if count > self.bytes.len() {
+            self.truncated = true;
+            return Err(Error::State { reason: "it is truncated" });
+        }
+        let (taken, rest) = self.bytes.split_at(count);
+        self.bytes = rest;
+        Ok(taken)
+    }
+
+    fn array<const N: usize>(&mut self) -> Result<[u8; N], Error> {
+        let mut array = [0; N];
+        array.copy_from_slice(self.take(N)?);
+        Ok(array)
+    }
+
+    fn byte(&mut self) -> Result<u8, Error> {
+        self.array::<1>().map(|[byte]| byte)
+    }
+
+    fn size(&mut self) -> Result<usize, Error> {
+        self.array().map(|bytes| u32::from_le_bytes(bytes) as usize)
+    }
+
+    fn word(&mut self) -> Result<String, Error> {
+        let length = usize::from(u16::from_le_bytes(self.array()?));
+        let text = core::str::from_utf8(self.take(length)?);
+        text.map(String::from).map_err(|_| Error::State { reason: "a name in it is not text" })
+    }
+
+    fn value(&mut self) -> Result<Given, Error> {
+        match self.byte()? {
+            0 => Ok(Given::Real(f64::from_le_bytes(self.array()?))),
+            1 => self.word().map(Given::Word),
+            2 => {
+                let (rows, columns) = (self.size()?, self.size()?);
+                let bytes = self.take(rows.saturating_mul(columns).saturating_mul(8))?;
+                let number = |b: &[u8]| b.try_into().map_or(f64::NAN, f64::from_le_bytes);
+                Ok(Given::Matrix { rows, columns, elements: bytes.chunks(8).map(number).collect() })
+            }
+            _ => Err(Error::State { reason: "a parameter in it is of an unknown kind" }),
+        }
+    }
+
+    /// A name and its parameters.
+    fn choice(&mut self) -> Result<(String, Parameters), Error> {
+        let name = self.word()?;
+        let count = self.byte()?;
+        let mut parameters = Vec::new();
+        for _ in 0..count {
+            parameters.push((self.word()?, self.value()?));
+        }
+        Ok((name, Parameters(parameters)))
+    }
+}
+
+enum Given {
+    Real(f64),
+    Word(String),
+    Matrix { rows: usize, columns: usize, elements: Vec<f64> },
+}
+
+struct Parameters(Vec<(String, Given)>);
+
+impl Parameters {
+    /// The elements of a matrix as a function, which [`Value`] wants.
+    fn with<R>(&self, use_values: impl FnOnce(&dyn Values) -> R) -> R {
+        let elements: Vec<_> = self.0.iter().map(|(_, given)| given.elements()).collect();
+        use_values(&Found { parameters: self, elements: &elements })
+    }
+}
+
+impl Given {
+    fn elements(&self) -> impl Fn(usize) -> f64 + '_ {
+        move |k| match self {
+            Self::Matrix { elements, .. } => elements.get(k).copied().unwrap_or(f64::NAN),
+            _ => f64::NAN,
+        }
+    }
+}
+
+struct Found<'a, E> {
+    parameters: &'a Parameters,
+    elements: &'a [E],
+}
+
+impl<E: Fn(usize) -> f64> Values for Found<'_, E> {
+    fn get(&self, name: &str) -> Option<Value<'_>> {
+        let position = self.parameters.0.iter().position(|(known, _)| known == name)?;
+        Some(match &self.parameters.0[position].1 {
+            Given::Real(x) => Value::Real(*x),
+            Given::Word(word) => Value::Word(word),
+            Given::Matrix { rows, columns, .. } => {
+                Value::Matrix { rows: *rows, columns: *columns, elements: &self.elements[position] }
+            }
+        })
+    }
+}
+
+/// The estimator described before the numbers, with the prior's numbers but its first state.
+pub fn header<T: Real>(reader: &mut Reader<'_>) -> Result<AnyEstimator<T>, Error> {
+    if usize::from(reader.byte()?) != T::BYTES {
+        return Err(Error::State { reason: "it holds numbers of another type" });
+    }
+    let memory = Dynamic::new(reader.size()?, reader.size()?, reader.size()?)?;
+    let form = reader.byte()?;
+    let (name, parameters) = reader.choice()?;
+    let rule = parameters.with(|values| Rule::named(&name, values, memory))?;
+    let (name, parameters) = reader.choice()?;
+    let rate = parameters.with(|values| AnyRate::named(&name, values, memory))?;
+    let (name, parameters) = reader.choice()?;
+    let weighting = parameters.with(|values| AnyWeighting::named(&name, values, memory))?;
+    let numbers = memory.parameters() * (memory.targets() + 1) * T::BYTES;
+    if reader.bytes.len() < numbers {
+        return Err(Error::State { reason: "it is truncated" });
+    }
+    let mut prior = Prior::of_form(memory, form)?;
+    prior.visit(reader);
+    if !prior.is_sound() {
+        return Err(Error::State { reason: "its numbers are not those of a prior" });
+    }
+    Ok(Estimator::new(rule, rate, weighting, prior))
+}
+
+impl<T: Real> Visitor<T> for Reader<'_> {
+    fn reals(&mut self, values: &mut [T]) {
+        for value in values {
+            let number = match T::BYTES {
+                4 => self.array().map(|bytes| f64::from(f32::from_le_bytes(bytes))),
+                _ => self.array().map(f64::from_le_bytes),
+            };
+            *value = T::from_f64(number.unwrap_or(f64::NAN));
+        }
+    }
+
+    fn whole(&mut self, value: &mut u64) {
+        *value = self.array().map_or(0, u64::from_le_bytes);
+    }
+}

@@ -1,0 +1,41 @@
+//! Trusts every sample as much as its Γ says.
+//!
+//!     w_k = 1
+
+use super::{AboutWeighting, Weighting};
+use crate::parameter::{Value, Values};
+use crate::rates::Evidence;
+use crate::{Error, Memory, Real};
+use core::marker::PhantomData;
+
+/// The registry entry.
+pub const ABOUT: AboutWeighting = AboutWeighting {
+    name: "equal",
+    type_name: "Equal",
+    source: include_str!("equal.rs"),
+    parameters: &[],
+};
+
+/// w_k = 1; see [`self`](crate::weighting::equal).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Equal<M>(PhantomData<M>);
+
+impl<M> Equal<M> {
+    /// The weighting.
+    pub fn new() -> Self {
+        Self(PhantomData)
+    }
+}
+
+impl<M: Memory> Weighting<M> for Equal<M> {
+    fn configure(_: &dyn Values, _: M) -> Result<Self, Error> {
+        Ok(Self::new())
+    }
+
+    fn describe(&self, _: &mut dyn FnMut(&'static str, Value<'_>)) {}
+
+    #[inline(always)]
+    fn weight(&self, _: &Evidence<'_, '_, M>) -> M::Real {
+        M::Real::ONE
+    }
+}

@@ -1,0 +1,112 @@
+//! How far to trust a sample: one file per weighting, one line per weighting in the registry
+//! below. A weight w divides the sample's noise covariance: Γ ← Γ/w.
+
+use crate::parameter::{Parameter, Value, Values};
+use crate::rates::Evidence;
+use crate::{Error, Memory};
+
+/// What the registry says of a weighting.
+#[derive(Clone, Copy, Debug)]
+pub struct AboutWeighting {
+    /// the registry name, which is also the name of the file
+    pub name: &'static str,
+    /// the name of the type
+    pub type_name: &'static str,
+    /// the text of the file; its header (`//!`) is the documentation
+    pub source: &'static str,
+    /// the parameters
+    pub parameters: &'static [Parameter],
+}
+
+/// A weighting of samples by their innovation.
+pub trait Weighting<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
+    /// The weighting with these parameter values.
+    ///
+    /// # Errors
+    /// [`Error`] names the parameter, its value and the allowed range.
+    fn configure(values: &dyn Values, memory: M) -> Result<Self, Error>;
+
+    /// Names each parameter with its value: [`Weighting::configure`] takes them back.
+    fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>));
+
+    /// Whether the weighting uses the leverage, which costs O(n²/2) more.
+    #[inline(always)]
+    fn needs_leverage(&self) -> bool {
+        false
+    }
+
+    /// w in (0, 1], from the whitened innovation.
+    fn weight(&self, evidence: &Evidence<'_, '_, M>) -> M::Real;
+}
+
+macro_rules! registry {
+    ($($module:ident :: $Weighting:ident,)*) => {
+        $(
+            pub mod $module;
+            pub use $module::$Weighting;
+        )*
+
+        /// Every weighting: its name, parameters and documentation.
+        pub const WEIGHTINGS: &[AboutWeighting] = &[$($module::ABOUT),*];
+
+        /// Any weighting of the registry, chosen by name at run time.
+        #[derive(Clone, Debug)]
+        #[allow(missing_docs, reason = "each variant is the weighting of that name")]
+        pub enum AnyWeighting<M: Memory> {
+            $($Weighting($Weighting<M>),)*
+        }
+
+        impl<M: Memory> AnyWeighting<M> {
+            /// The weighting called `name`, with these parameter values.
+            ///
+            /// # Errors
+            /// [`Error::Unknown`] for a name not in the registry, else those of the weighting.
+            pub fn named(name: &str, values: &dyn Values, memory: M) -> Result<Self, Error> {
+                match name {
+                    $(stringify!($module) => {
+                        <$Weighting<M> as Weighting<M>>::configure(values, memory)
+                            .map(Self::$Weighting)
+                    })*
+                    _ => Err(Error::Unknown { parameter: "weighting" }),
+                }
+            }
+
+            /// The entry of this weighting in [`WEIGHTINGS`].
+            pub fn about(&self) -> AboutWeighting {
+                match self {
+                    $(Self::$Weighting(_) => $module::ABOUT,)*
+                }
+            }
+        }
+
+        impl<M: Memory> Weighting<M> for AnyWeighting<M> {
+            fn configure(_: &dyn Values, _: M) -> Result<Self, Error> {
+                Err(Error::Missing { parameter: "weighting" })
+            }
+
+            fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>)) {
+                match self {
+                    $(Self::$Weighting(weighting) => weighting.describe(each),)*
+                }
+            }
+
+            #[inline(always)]
+            fn needs_leverage(&self) -> bool {
+                match self {
+                    $(Self::$Weighting(weighting) => weighting.needs_leverage(),)*
+                }
+            }
+
+            #[inline(always)]
+            fn weight(&self, evidence: &Evidence<'_, '_, M>) -> M::Real {
+                match self {
+                    $(Self::$Weighting(weighting) => weighting.weight(evidence),)*
+                }
+            }
+        }
+    };
+}
+
+registry! {
+    equal::Equal,
+}

@@ -1,0 +1,48 @@
+"""Recursive least squares with generalized forgetting.
+
+Estimates the parameters of y = phi @ theta + noise from live data, sample by sample, and forgets
+only what it should.
+
+>>> import forgetting as fg
+>>> est = fg.RLS(2, rule=fg.Subspace(0.98, threshold=1e-3), initial_covariance=100.0)
+>>> u = est.update([1.0, 2.0], 8.0)
+>>> u.error
+8.0
+"""
+
+from . import choices
+from ._core import (
+    RLS,
+    SKIPPED,
+    InvalidInput,
+    NumericalRange,
+    Run,
+    Update,
+    __version__,
+    rates,
+    rules,
+    weightings,
+)
+from .choices import Rate, Rule, Weighting, rule
+from .models import ARX
+
+globals().update(choices.CLASSES)
+
+__all__ = [
+    "ARX",
+    "RLS",
+    "SKIPPED",
+    "InvalidInput",
+    "NumericalRange",
+    "Rate",
+    "Rule",
+    "Run",
+    "Update",
+    "Weighting",
+    "__version__",
+    "rates",
+    "rule",
+    "rules",
+    "weightings",
+    *choices.CLASSES,
+]

@@ -1,0 +1,229 @@
+"""ARX: a linear difference equation identified recursively, with any forgetting rule."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+import forgetting as fg
+from forgetting.models.lags import regressors
+from forgetting.models.orders import Orders
+from forgetting.models.parameters import Parameters
+from forgetting.models.signals import channels, paired
+from forgetting.models.simulation import free_run
+
+Array = NDArray[np.float64]
+
+
+class ARX(Parameters):
+    """AutoRegressive model with eXogenous inputs, y(k) = phi(k) theta + noise.
+
+    The regressor is equations (1)-(2) of Zhu, Yu and Wan (2022):
+    ``phi(k) = [-y(k-1) ... -y(k-na), u(k-nk) ... u(k-nk-nb+1)]``. Several outputs share phi and one
+    covariance factor, so m outputs cost O(n² + n·m) a sample.
+
+    A sample with a missing value (NaN) anywhere in phi(k) or y(k) is skipped: the estimate is held,
+    and every later sample whose lags reach the gap is skipped too. To break the lags between two
+    separate records, feed `Orders.reach` rows of NaN.
+
+    Parameters
+    ----------
+    na, nb, nk : int
+        Orders: past outputs, inputs, and delay of the newest input in samples; all >= 0.
+    rule : str or Rule
+        Forgetting rule, by registry name or as an object such as ``fg.Subspace(0.98)``.
+    initial_covariance : float or array_like
+        P before the first sample: a scalar, the (n,) diagonal, or (n, n); in units of 1/phi².
+    dtype : str
+        "float64" or "float32", the precision of the estimator.
+
+    Attributes
+    ----------
+    theta_ : ndarray, shape (n,) or (n, outputs)
+        Estimate after the last sample.
+    covariance_ : ndarray, shape (n, n)
+        P after the last sample; times the noise variance it is the parameter covariance.
+    estimator_ : forgetting.RLS
+        The estimator itself.
+    samples_, used_ : int
+        Rows seen since `fit`, and how many of them the estimate has used.
+    n_inputs_, n_outputs_ : int
+        Channels of u and y.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import forgetting as fg
+    >>> rng = np.random.default_rng(0)
+    >>> u = rng.normal(size=300)
+    >>> y = np.zeros(300)
+    >>> for k in range(1, 300):
+    ...     y[k] = 0.8 * y[k - 1] + 0.5 * u[k - 1]
+    >>> model = fg.ARX(na=1, nb=1, nk=1, rule=fg.NoForgetting(), initial_covariance=1e8).fit(u, y)
+    >>> np.round(model.theta_, 6) + 0.0
+    array([-0.8,  0.5])
+    """
+
+    def __init__(
+        self,
+        na: int = 1,
+        nb: int = 2,
+        nk: int = 0,
+        rule: Any = "subspace",
+        initial_covariance: ArrayLike = 100.0,
+        dtype: str = "float64",
+    ) -> None:
+        self.na = na
+        self.nb = nb
+        self.nk = nk
+        self.rule = rule
+        self.initial_covariance = initial_covariance
+        self.dtype = dtype
+
+    def fit(self, u: ArrayLike | None, y: ArrayLike) -> ARX:
+        """Forget everything and identify from a whole record.
+
+        Parameters
+        ----------
+        u : array_like, shape (T,) or (T, inputs), or None
+            Inputs; None when nb = 0. NaN is a missing value.
+        y : array_like, shape (T,) or (T, outputs)
+            Outputs. NaN is a missing value.
+
+        Returns
+        -------
+        ARX
+            This object.
+
+        Raises
+        ------
+        forgetting.InvalidInput
+            When shapes disagree, an order or parameter is out of range, or a value is infinite.
+        """
+        inputs, outputs = paired(u, y)
+        orders = self._orders(inputs)
+        estimator = fg.RLS(
+            orders.regressors(outputs.shape[1], inputs.shape[1]),
+            rule=self.rule,
+            targets=outputs.shape[1],
+            initial_covariance=self.initial_covariance,
+            dtype=self.dtype,
+        )
+        used = self._learn(estimator, orders, inputs, outputs)
+        self.n_inputs_, self.n_outputs_ = inputs.shape[1], outputs.shape[1]
+        self._single = np.ndim(y) == 1
+        self._remember(orders, inputs, outputs)
+        self.samples_, self.used_ = len(outputs), used
+        return self
+
+    def partial_fit(self, u: ArrayLike | None, y: ArrayLike) -> ARX:
+        """Go on with the next rows; any split of a record gives the same bits as `fit` on all of it.
+
+        Parameters and errors are those of `fit`; the first call is `fit`. The last `Orders.reach`
+        rows are kept, so the lags reach across calls.
+        """
+        if not hasattr(self, "estimator_"):
+            return self.fit(u, y)
+        inputs, outputs = self._checked(u, y)
+        orders = self._orders(inputs)
+        old_inputs, old_outputs = self._tail
+        inputs, outputs = np.vstack([old_inputs, inputs]), np.vstack([old_outputs, outputs])
+        self.used_ += self._learn(self.estimator_, orders, inputs, outputs, len(old_outputs))
+        self.samples_ += len(outputs) - len(old_outputs)
+        self._remember(orders, inputs, outputs)
+        return self
+
+    def predict(self, u: ArrayLike | None, y: ArrayLike) -> Array:
+        """Predict each y(k) one step ahead, from measured y(k-1), y(k-2), ... and the final theta.
+
+        Returns an array shaped like y; NaN where a lag is missing, so always in the first
+        `Orders.reach` rows.
+        """
+        inputs, outputs = self._checked(u, y)
+        predicted = regressors(inputs, outputs, self._orders(inputs)) @ self._theta()
+        return predicted[:, 0] if np.ndim(y) == 1 else predicted
+
+    def simulate(self, u: ArrayLike | int, y_start: ArrayLike | None = None) -> Array:
+        """Run the model freely: its own past outputs stand in the lags, never measured ones.
+
+        Parameters
+        ----------
+        u : array_like, shape (T,) or (T, inputs), or int
+            Inputs without gaps; for a model without inputs the number of samples T.
+        y_start : array_like, shape (r,) or (r, outputs), optional
+            Outputs of the first r rows, copied into the result, from which the run starts.
+            Everything before the record is zero (the system was at rest).
+
+        Returns
+        -------
+        ndarray, shape (T,) or (T, outputs)
+            Simulated outputs, shaped like the y given to `fit`.
+        """
+        self._check_is_fitted()
+        inputs = np.empty((u, 0)) if isinstance(u, int) else channels("u", u)
+        start = np.empty((0, self.n_outputs_)) if y_start is None else channels("y_start", y_start)
+        self._match(inputs, start)
+        simulated = free_run(inputs, start, self._theta(), self._orders(inputs))
+        return simulated[:, 0] if self._single else simulated
+
+    def _orders(self, inputs: Array) -> Orders:
+        orders = Orders(self.na, self.nb, self.nk)
+        if (orders.nb > 0) != (inputs.shape[1] > 0):
+            given = f"{inputs.shape[1]} input(s)"
+            raise fg.InvalidInput(f"nb is {orders.nb} but u has {given}; nb = 0 goes with u = None")
+        return orders
+
+    def _learn(
+        self, estimator: Any, orders: Orders, inputs: Array, outputs: Array, skip: int = 0
+    ) -> int:
+        phi = regressors(inputs, outputs, orders)[skip:]
+        target = outputs[skip:, 0] if outputs.shape[1] == 1 else outputs[skip:]
+        dtype = np.dtype(self.dtype)
+        phi, target = phi.astype(dtype, copy=False), target.astype(dtype, copy=False)
+        used = int(estimator.run(phi, target, outputs=(), missing="skip").used)
+        # Set only after success, so that a refused record leaves the model as it was.
+        self.estimator_ = estimator
+        return used
+
+    def _remember(self, orders: Orders, inputs: Array, outputs: Array) -> None:
+        start = max(0, len(outputs) - orders.reach)
+        self._tail = inputs[start:].copy(), outputs[start:].copy()
+
+    def _checked(self, u: ArrayLike | None, y: ArrayLike) -> tuple[Array, Array]:
+        self._check_is_fitted()
+        inputs, outputs = paired(u, y)
+        self._match(inputs, outputs)
+        return inputs, outputs
+
+    def _match(self, inputs: Array, outputs: Array) -> None:
+        for name, given, expected in (
+            ("u", inputs.shape[1], self.n_inputs_),
+            ("y", outputs.shape[1], self.n_outputs_),
+        ):
+            if given != expected:
+                raise fg.InvalidInput(f"{name} has {given} channels; the model has {expected}")
+
+    def _theta(self) -> Array:
+        return np.asarray(self.estimator_.theta, dtype=np.float64).reshape(-1, self.n_outputs_)
+
+    def _check_is_fitted(self) -> None:
+        if not hasattr(self, "estimator_"):
+            raise fg.InvalidInput("this ARX has seen no data; call fit or partial_fit first")
+
+    @property
+    def theta_(self) -> Array:
+        """Estimate after the last sample, (n,) or (n, outputs)."""
+        return np.asarray(self._learned("theta_").theta)
+
+    @property
+    def covariance_(self) -> Array:
+        """P after the last sample, (n, n)."""
+        return np.asarray(self._learned("covariance_").covariance)
+
+    def _learned(self, name: str) -> Any:
+        # AttributeError (not InvalidInput), so that hasattr(model, "theta_") is False before fit.
+        if not hasattr(self, "estimator_"):
+            raise AttributeError(f"{name} exists after fit or partial_fit")
+        return self.estimator_
