@@ -1,8 +1,10 @@
 //! The one recursion (GF-RLS, Theorem 1), sample by sample.
 //!
-//!     forget    R̄ = R − F                          R = P⁻¹; only P changes
-//!     measure   R₊ = R̄ + φᵀ Γ⁻¹ φ                  P and the gain
-//!     correct   θ₊ = θ + R₊⁻¹ φᵀ Γ⁻¹ (y − φ θ)     θ changes here and nowhere else
+//! ```text
+//! forget    R̄ = R − F                          R = P⁻¹; only P changes
+//! measure   R₊ = R̄ + φᵀ Γ⁻¹ φ                  P and the gain
+//! correct   θ₊ = θ + R₊⁻¹ φᵀ Γ⁻¹ (y − φ θ)     θ changes here and nowhere else
+//! ```
 
 use crate::factor::kernel::dot;
 use crate::intake::{whiten, Intake, Known, Noise};

@@ -1,6 +1,8 @@
 //! The same forgetting factor at every sample.
 //!
-//!     λ_k = λ
+//! ```text
+//! λ_k = λ
+//! ```
 //!
 //! | symbol | name | range | default |
 //! |---|---|---|---|

@@ -1,7 +1,9 @@
 //! Forgets everything at the same rate.
 //!
-//!     F_k = (1 − λ_k) R_k                      GF-RLS (35), with any rate (39)
-//!     R̄ = λ R,   P̄ = P / λ                    the form used: D ← D / λ
+//! ```text
+//! F_k = (1 − λ_k) R_k                      GF-RLS (35), with any rate (39)
+//! R̄ = λ R,   P̄ = P / λ                    the form used: D ← D / λ
+//! ```
 //!
 //! | symbol | name | range | default |
 //! |---|---|---|---|

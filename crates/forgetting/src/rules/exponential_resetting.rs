@@ -1,8 +1,10 @@
 //! Forgets towards a fixed information matrix, so that in silence P returns to its inverse.
 //!
-//!     F_k = (1 − λ_k) (R_k − R_∞)              GF-RLS (55)
-//!     R̄ = λ R + (1 − λ) R_∞                    the form used: D ← D / λ, then one information
-//!                                              row √(1 − λ) r for each row r of a root of R_∞
+//! ```text
+//! F_k = (1 − λ_k) (R_k − R_∞)              GF-RLS (55)
+//! R̄ = λ R + (1 − λ) R_∞                    the form used: D ← D / λ, then one information
+//!                                          row √(1 − λ) r for each row r of a root of R_∞
+//! ```
 //!
 //! | symbol | name | range | default |
 //! |---|---|---|---|

@@ -1,7 +1,9 @@
 //! Never forgets: plain recursive least squares.
 //!
-//!     F_k = 0                                  GF-RLS section V-A, (32)
-//!     R̄ = R                                    nothing to do
+//! ```text
+//! F_k = 0                                  GF-RLS section V-A, (32)
+//! R̄ = R                                    nothing to do
+//! ```
 //!
 //! | symbol | name | range | default |
 //! |---|---|---|---|

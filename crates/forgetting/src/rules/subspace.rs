@@ -1,9 +1,11 @@
 //! Forgets only in the directions that the sample informs (SIFt), and skips what is too small to inform.
 //!
-//!     φ̄ = W S Vᵀ, keep the q singular values ≥ threshold: φ_f = W_qᵀφ̄, y_f = W_qᵀȳ
-//!     F_k = (1 − λ_k) R φ_fᵀ (φ_f R φ_fᵀ)⁻¹ φ_f R        Lai & Bernstein 2024 (SIFt-RLS)
-//!     P̄ = P + (1 − λ)/λ · φ_fᵀ (φ_f R φ_fᵀ)⁻¹ φ_f        the form used: one dyad w wᵀ for each of
-//!                                                        q vectors w with w_iᵀ R w_j = δ_ij
+//! ```text
+//! φ̄ = W S Vᵀ, keep the q singular values ≥ threshold: φ_f = W_qᵀφ̄, y_f = W_qᵀȳ
+//! F_k = (1 − λ_k) R φ_fᵀ (φ_f R φ_fᵀ)⁻¹ φ_f R        Lai & Bernstein 2024 (SIFt-RLS)
+//! P̄ = P + (1 − λ)/λ · φ_fᵀ (φ_f R φ_fᵀ)⁻¹ φ_f        the form used: one dyad w wᵀ for each of
+//!                                                    q vectors w with w_iᵀ R w_j = δ_ij
+//! ```
 //!
 //! | symbol | name | range | default |
 //! |---|---|---|---|

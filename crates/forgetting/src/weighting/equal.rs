@@ -1,6 +1,8 @@
 //! Trusts every sample as much as its Γ says.
 //!
-//!     w_k = 1
+//! ```text
+//! w_k = 1
+//! ```
 
 use super::{AboutWeighting, Weighting};
 use crate::parameter::{Value, Values};
