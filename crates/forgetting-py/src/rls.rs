@@ -1,7 +1,7 @@
 //! The class `RLS`.
 
 use crate::arrays::Number;
-use crate::configure::make;
+use crate::configure::{make, read_sizes};
 use crate::errors::{invalid, raise};
 use crate::outputs::{Run, DEFAULT_OUTPUTS};
 use crate::update::Update;
@@ -74,16 +74,17 @@ impl Rls {
         initial_covariance=None, initial_theta=None, dtype="float64"))]
     #[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn new(
-        parameters: usize,
+        parameters: i64,
         rule: Option<&Bound<'_, PyAny>>,
         weighting: Option<&Bound<'_, PyAny>>,
-        rows: usize,
-        targets: usize,
+        rows: i64,
+        targets: i64,
         initial_covariance: Option<&Bound<'_, PyAny>>,
         initial_theta: Option<&Bound<'_, PyAny>>,
         dtype: &str,
     ) -> PyResult<Self> {
-        let sizes = (parameters, rows, targets);
+        let sizes = [("parameters", parameters), ("rows", rows), ("targets", targets)];
+        let sizes = read_sizes(sizes)?;
         let initial = (initial_covariance, initial_theta);
         let inner = match dtype {
             "float64" => Inner::Double(Box::new(make(sizes, rule, weighting, initial)?)),

@@ -17,7 +17,7 @@
 //! - Use it when what is known without data should come back in silence. `cyclic_resetting`
 //!   does nearly the same in O(n²).
 //!
-//! Reference: A. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
+//! Reference: B. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
 //! stability and robustness guarantees*, IEEE Transactions on Automatic Control, 2024, V-E.
 
 use super::{About, Claim, Forgetting, Forgotten, Step};

@@ -15,7 +15,7 @@
 //! - Use it for parameters that never change. With parameters that drift, the estimate lags more
 //!   and more.
 //!
-//! Reference: A. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
+//! Reference: B. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
 //! stability and robustness guarantees*, IEEE Transactions on Automatic Control, 2024.
 
 use super::{About, Claim, Forgetting, Forgotten, Step};
