@@ -23,6 +23,7 @@ pub mod factor;
 mod intake;
 mod measure;
 mod memory;
+pub mod monitor;
 pub mod parameter;
 mod prior;
 pub mod rates;
@@ -43,6 +44,7 @@ pub use intake::Noise;
 #[cfg(feature = "alloc")]
 pub use memory::Dynamic;
 pub use memory::{Buffer, Fixed, Grid, Memory, Packed, Size};
+pub use monitor::Health;
 pub use prior::Prior;
 pub use rates::{Constant, Rate};
 pub use real::Real;
