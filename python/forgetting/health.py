@@ -88,17 +88,16 @@ class Health:
         """
         if self.direction is None or self.status in ("ok", "saturated"):
             return self.status
-        largest = float(np.abs(self.direction).max())
-        named = [
-            names[i] if names is not None else f"parameter {i}"
-            for i in np.flatnonzero(np.abs(self.direction) > 0.3 * largest)
-        ]
+        silence = self.since_excited if self.since_excited is not None else np.zeros(0)
+        if self.informed:  # so it is a parameter that is silent
+            involved, samples = silence.argmax(keepdims=True), int(silence.max())
+        else:
+            size = np.abs(self.direction)
+            involved = np.flatnonzero(size > 0.3 * size.max())
+            samples = max(self.since_informed or 0, int(silence[involved].min()))
+        named = [names[i] if names is not None else f"parameter {i}" for i in involved]
         along = named[0] if len(named) == 1 else "the combination of " + " and ".join(named)
-        if self.informed and self.since_excited is not None:
-            i = int(self.since_excited.argmax())
-            along = names[i] if names is not None else f"parameter {i}"
-            return f"{self.status}: nothing has excited {along} for {self.since_excited[i]} samples"
-        return f"{self.status}: nothing has informed {along} for {self.since_informed} samples"
+        return f"{self.status}: nothing has informed {along} for {samples} samples"
 
 
 def health_of(estimator: RLS, exact: bool = False) -> Health:

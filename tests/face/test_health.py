@@ -55,7 +55,7 @@ def test_exponential_winds_up_in_the_directions_without_excitation(dtype):
     assert health.status == "windup"
     assert abs(health.direction @ STUCK) < 1e-3
     assert health.growth > 100
-    assert 340 < health.since_informed <= 400
+    assert 300 < health.since_informed <= 400
 
 
 @pytest.mark.parametrize("rule", BOUNDED, ids=lambda rule: rule.name)

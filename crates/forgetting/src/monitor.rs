@@ -5,7 +5,7 @@
 //! informed            σ² Σ (φ̄ v)² ≥ share, over this block of samples and the one before
 //! windup              σ² > factor · (σ² when v was last informed), and v is not informed
 //! excited             parameter i is when N φ̄_i² P_ii ≥ share, P_ii as of the last block
-//! noise variance      mean of ē² / (1 + φ̄P̄φ̄ᵀ), weighted with the products of λ
+//! noise variance      mean of ē² / (1 + φ̄P̄φ̄ᵀ) where φ̄P̄φ̄ᵀ ≤ 1, weighted with the products of λ
 //! whiteness           lag-one correlation of ē / √(1 + φ̄P̄φ̄ᵀ), with the same weights
 //! ```
 //!
@@ -167,6 +167,9 @@ impl<M: Memory> Monitor<M> {
         let Seen { sample, squared_error, leverage, forgetting_factor: lambda } = *seen;
         let spread = M::Real::ONE + leverage / M::Real::from_f64(sample.rows() as f64);
         let measurements = M::Real::from_f64(sample.errors().len() as f64);
+        if spread > M::Real::from_f64(2.0) {
+            return; // more uncertain of the parameters than of the noise: it tells nothing of noise
+        }
         let innovation = sample.errors()[0] / spread.sqrt();
         self.weight = lambda.mul_add(self.weight, M::Real::ONE);
         self.squares = lambda.mul_add(self.squares, squared_error / (measurements * spread));
