@@ -19,6 +19,8 @@ extern crate alloc;
 mod directions;
 mod error;
 mod estimator;
+#[cfg(feature = "alloc")]
+mod excitation;
 pub mod factor;
 mod intake;
 mod measure;
@@ -39,6 +41,8 @@ mod work;
 
 pub use error::Error;
 pub use estimator::{Estimator, Update};
+#[cfg(feature = "alloc")]
+pub use excitation::Excitation;
 pub use factor::Factor;
 pub use intake::Noise;
 #[cfg(feature = "alloc")]
