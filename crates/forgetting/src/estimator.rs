@@ -6,8 +6,9 @@
 //! correct   θ₊ = θ + R₊⁻¹ φᵀ Γ⁻¹ (y − φ θ)     θ changes here and nowhere else
 //! ```
 
+use crate::evidence::Known;
 use crate::factor::kernel::dot;
-use crate::intake::{whiten, Intake, Known, Noise};
+use crate::intake::{whiten, Intake, Noise};
 use crate::measure::{leverage, measure};
 use crate::rates::Rate;
 use crate::rules::{Forgetting, Forgotten, Skip, Step};
@@ -158,18 +159,21 @@ where
         let intake = &mut self.intake;
         let mut sample = Sample::new(memory, intake.regressors.as_mut(), intake.errors.as_mut());
         whiten(&mut sample, noise, intake.noise.as_mut())?;
-        let mut known = Known::of(&sample)?;
-        if self.rate.needs_leverage() || self.weighting.needs_leverage() {
-            known.leverage = leverage(&self.factor, &sample);
-        }
-        let evidence = known.evidence(&sample, &self.factor, self.samples);
-        let weight = self.weighting.weight(&evidence);
+        let mut known = Known::of(memory, &sample)?;
+        let needs = self.rate.needs().max(self.weighting.needs());
+        let buffers = (intake.remaining.as_mut(), intake.noise.as_mut());
+        known.find(needs, &self.factor, &sample, &mut self.work, buffers);
+        let seen = intake.seen.as_mut();
+        seen.copy_from_slice(sample.errors());
+        let weight =
+            self.weighting.weight(&known.evidence(&sample, &self.factor, seen, self.samples));
         if weight != M::Real::ONE {
-            known.weigh(weight)?;
+            known.weigh(weight, seen)?;
             sample.scale(weight.sqrt());
         }
-        let evidence = known.evidence(&sample, &self.factor, self.samples);
-        let lambda = self.rate.forgetting_factor(&self.rate_state, &evidence);
+        known.cap();
+        let evidence = known.evidence(&sample, &self.factor, seen, self.samples);
+        let lambda = self.rate.forgetting_factor(&self.rate_state, &evidence)?;
         if !(lambda > M::Real::ZERO && lambda <= M::Real::ONE) {
             return Err(Error::value("forgetting_factor", lambda.to_f64(), "(0, 1]"));
         }
@@ -185,7 +189,7 @@ where
         } else {
             let (gain, theta) = (self.work.gain.as_mut(), self.theta.as_mut());
             let leverage = measure(&mut self.factor, &sample, gain, theta, &mut intake.remaining);
-            let evidence = known.evidence(&sample, &self.factor, self.samples);
+            let evidence = known.evidence(&sample, &self.factor, seen, self.samples);
             self.rate.learn(&mut self.rate_state, &evidence, lambda);
             self.samples += 1;
             leverage
@@ -225,6 +229,11 @@ where
     /// The design of the forgetting factor.
     pub fn rate(&self) -> &R {
         &self.rate
+    }
+
+    /// What the design of the forgetting factor remembers.
+    pub fn rate_state(&self) -> &R::State {
+        &self.rate_state
     }
 
     /// The weighting of samples.

@@ -19,6 +19,7 @@ extern crate alloc;
 mod directions;
 mod error;
 mod estimator;
+mod evidence;
 pub mod factor;
 mod intake;
 mod measure;
@@ -38,6 +39,7 @@ mod work;
 
 pub use error::Error;
 pub use estimator::{Estimator, Update};
+pub use evidence::{Evidence, Needs};
 pub use factor::Factor;
 pub use intake::Noise;
 #[cfg(feature = "alloc")]
