@@ -72,8 +72,10 @@ fn read_rule<T: Number>(
     }
     let factor = object.and_then(|object| object.getattr_opt("forgetting_factor").ok().flatten());
     let rate = match factor {
+        // a rule without a forgetting factor reports that it forgets nothing by it
+        None if about.is_some_and(|about| !about.forgetting_factor) => constant(1.0),
+        Some(factor) if factor.is_none() => constant(1.0),
         None => constant(0.99),
-        Some(factor) if factor.is_none() => constant(0.99),
         Some(factor) => match factor.extract::<f64>() {
             Ok(number) => constant(number),
             Err(_) => Choice::read("forgetting_factor", &factor)?,

@@ -10,6 +10,7 @@ use crate::evidence::Known;
 use crate::factor::kernel::dot;
 use crate::intake::{whiten, Intake, Noise};
 use crate::measure::{leverage, measure};
+use crate::monitor::{Health, Monitor, Seen};
 use crate::rates::Rate;
 use crate::rules::{Forgetting, Forgotten, Skip, Step};
 use crate::state::{State, Visitor};
@@ -29,6 +30,7 @@ pub struct Update<'a, T> {
     pub rank: usize,
     /// why the sample was left out, if it was
     pub skipped: Option<Skip>,
+    /// whether P has wound up: as the watch says ([`Health::windup`]) if there is one, else
     /// whether P has grown beyond [`Estimator::WINDUP`] times its first value
     pub windup: bool,
 }
@@ -71,6 +73,7 @@ where
     rate_state: R::State,
     samples: u64,
     windup_limit: M::Real,
+    monitor: Option<Monitor<M>>,
     intake: Intake<M>,
     work: Work<M>,
 }
@@ -94,6 +97,7 @@ where
             rule_state: rule.start(memory),
             rate_state: rate.start(memory),
             windup_limit: M::Real::from_f64(Self::WINDUP) * factor.largest(),
+            monitor: None,
             intake: Intake::new(memory),
             work: Work::new(memory),
             samples: 0,
@@ -113,6 +117,19 @@ where
         self.rule_state = self.rule.start(memory);
         self.rate_state = self.rate.start(memory);
         self.samples = 0;
+        if self.monitor.is_some() {
+            self.monitor = Some(Monitor::new(&self.factor, self.rule.is_bounded()));
+        }
+    }
+
+    /// Watches from now on: [`Estimator::health`] tells what it sees. O(n) a sample.
+    pub fn watch(&mut self) {
+        self.monitor = Some(Monitor::new(&self.factor, self.rule.is_bounded()));
+    }
+
+    /// What the watch has seen, if there is one.
+    pub fn health(&self) -> Option<Health<'_, M::Real>> {
+        self.monitor.as_ref().map(Monitor::health)
     }
 
     /// φθ for p x n numbers `phi`, row by row; writes p x m numbers to `prediction`.
@@ -161,17 +178,10 @@ where
         whiten(&mut sample, noise, intake.noise.as_mut())?;
         let mut known = Known::of(memory, &sample)?;
         let needs = self.rate.needs().max(self.weighting.needs());
-        let buffers = (intake.remaining.as_mut(), intake.noise.as_mut());
+        let (seen, buffers) =
+            (intake.seen.as_mut(), (intake.remaining.as_mut(), intake.noise.as_mut()));
         known.find(needs, &self.factor, &sample, &mut self.work, buffers);
-        let seen = intake.seen.as_mut();
-        seen.copy_from_slice(sample.errors());
-        let weight =
-            self.weighting.weight(&known.evidence(&sample, &self.factor, seen, self.samples));
-        if weight != M::Real::ONE {
-            known.weigh(weight, seen)?;
-            sample.scale(weight.sqrt());
-        }
-        known.cap();
+        known.weigh(&self.weighting, &mut sample, seen, &self.factor, self.samples)?;
         let evidence = known.evidence(&sample, &self.factor, seen, self.samples);
         let lambda = self.rate.forgetting_factor(&self.rate_state, &evidence)?;
         if !(lambda > M::Real::ZERO && lambda <= M::Real::ONE) {
@@ -194,13 +204,21 @@ where
             self.samples += 1;
             leverage
         };
+        if let Some(monitor) = &mut self.monitor {
+            let squared_error = known.used_error();
+            let seen = Seen { sample: &sample, squared_error, leverage, forgetting_factor: lambda };
+            monitor.watch(&self.factor, skipped.is_none().then_some(seen));
+        }
         Ok(Update {
             error: self.intake.innovations.as_ref(),
             leverage,
             forgetting_factor: lambda,
             rank,
             skipped,
-            windup: self.factor.largest() > self.windup_limit,
+            windup: match &self.monitor {
+                Some(monitor) => monitor.windup(),
+                None => self.factor.largest() > self.windup_limit,
+            },
         })
     }
 
@@ -258,5 +276,8 @@ where
         self.rule_state.visit(visitor);
         self.rate_state.visit(visitor);
         visitor.whole(&mut self.samples);
+        if let Some(monitor) = &mut self.monitor {
+            monitor.visit(visitor);
+        }
     }
 }

@@ -3,6 +3,7 @@
 use crate::factor::kernel::{add_scaled, dot, multiply_transposed};
 use crate::intake::{not_finite, out_of_range};
 use crate::measure::leverage;
+use crate::weighting::Weighting;
 use crate::{Error, Factor, Memory, Real, Sample, Work};
 
 /// What a rate or a weighting knows of a sample.
@@ -66,6 +67,7 @@ pub(crate) struct Known<T> {
     squared_error: T,
     leverage: T,
     normalized_error: T,
+    weight: T,
     rows: usize,
     targets: usize,
 }
@@ -89,6 +91,7 @@ impl<T: Real> Known<T> {
             squared_error: mean(sum, memory.targets()),
             leverage: T::ZERO,
             normalized_error: T::ZERO,
+            weight: T::ONE,
             rows: memory.rows(),
             targets: memory.targets(),
         })
@@ -119,8 +122,29 @@ impl<T: Real> Known<T> {
         }
     }
 
-    /// Γ ← Γ/w; the errors that a rate sees become w times what they were.
-    pub fn weigh(&mut self, weight: T, seen: &mut [T]) -> Result<(), Error> {
+    /// Γ ← Γ/w with the weight of the sample; leaves in `seen` the errors that a rate sees, w
+    /// times the whitened ones.
+    #[inline(always)]
+    pub fn weigh<M: Memory<Real = T>, W: Weighting<M>>(
+        &mut self,
+        weighting: &W,
+        sample: &mut Sample<'_, M>,
+        seen: &mut [T],
+        factor: &Factor<M>,
+        samples: u64,
+    ) -> Result<(), Error> {
+        seen.copy_from_slice(sample.errors());
+        let weight = weighting.weight(&self.evidence(sample, factor, seen, samples));
+        if weight != T::ONE {
+            self.scale(weight)?;
+            sample.scale(weight.sqrt());
+            seen.iter_mut().for_each(|e| *e *= weight);
+        }
+        self.cap();
+        Ok(())
+    }
+
+    fn scale(&mut self, weight: T) -> Result<(), Error> {
         if !(weight > T::ZERO && weight.is_finite()) {
             return Err(Error::value("weight", weight.to_f64(), "positive and finite"));
         }
@@ -128,15 +152,21 @@ impl<T: Real> Known<T> {
         if !(squared_regressors <= T::CEILING) {
             return Err(out_of_range("phi (its squared length)", squared_regressors));
         }
-        seen.iter_mut().for_each(|e| *e *= weight);
+        self.weight = weight;
         self.squared_error = weight * (weight * self.squared_error);
         self.normalized_error = weight * (weight * self.normalized_error);
         Ok(())
     }
 
+    /// ‖ē‖² over rows and targets of the sample as it is used, weighted by √w.
+    #[inline(always)]
+    pub fn used_error(&self) -> T {
+        self.squared_error / self.weight * T::from_f64(self.targets as f64)
+    }
+
     /// Makes every statistic small enough to be squared.
     #[inline(always)]
-    pub fn cap(&mut self) {
+    fn cap(&mut self) {
         let Self { squared_error, leverage, normalized_error, .. } = self;
         for statistic in [squared_error, leverage, normalized_error] {
             // written so that what is not a number is capped, too

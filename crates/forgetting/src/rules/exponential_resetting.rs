@@ -73,6 +73,10 @@ impl<M: Memory> Forgetting<M> for ExponentialResetting<M> {
 
     fn start(&self, _: M) {}
 
+    fn is_bounded(&self) -> bool {
+        self.information.rank() == self.information.parameters()
+    }
+
     #[inline(always)]
     fn forget(&self, (): &mut (), step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         let lambda = step.forgetting_factor;

@@ -59,6 +59,10 @@ impl<M: Memory> Forgetting<M> for NoForgetting<M> {
 
     fn start(&self, _: M) {}
 
+    fn is_bounded(&self) -> bool {
+        true
+    }
+
     #[inline(always)]
     fn forget(&self, (): &mut (), _: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         Ok(Forgotten::rank(0))
