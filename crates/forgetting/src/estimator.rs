@@ -6,8 +6,9 @@
 //! correct   θ₊ = θ + R₊⁻¹ φᵀ Γ⁻¹ (y − φ θ)     θ changes here and nowhere else
 //! ```
 
+use crate::evidence::Known;
 use crate::factor::kernel::dot;
-use crate::intake::{whiten, Intake, Known, Noise};
+use crate::intake::{whiten, Intake, Noise};
 use crate::measure::{leverage, measure};
 use crate::monitor::{Health, Monitor, Seen};
 use crate::rates::Rate;
@@ -175,18 +176,14 @@ where
         let intake = &mut self.intake;
         let mut sample = Sample::new(memory, intake.regressors.as_mut(), intake.errors.as_mut());
         whiten(&mut sample, noise, intake.noise.as_mut())?;
-        let mut known = Known::of(&sample)?;
-        if self.rate.needs_leverage() || self.weighting.needs_leverage() {
-            known.leverage = leverage(&self.factor, &sample);
-        }
-        let evidence = known.evidence(&sample, &self.factor, self.samples);
-        let weight = self.weighting.weight(&evidence);
-        if weight != M::Real::ONE {
-            known.weigh(weight)?;
-            sample.scale(weight.sqrt());
-        }
-        let evidence = known.evidence(&sample, &self.factor, self.samples);
-        let lambda = self.rate.forgetting_factor(&self.rate_state, &evidence);
+        let mut known = Known::of(memory, &sample)?;
+        let needs = self.rate.needs().max(self.weighting.needs());
+        let (seen, buffers) =
+            (intake.seen.as_mut(), (intake.remaining.as_mut(), intake.noise.as_mut()));
+        known.find(needs, &self.factor, &sample, &mut self.work, buffers);
+        known.weigh(&self.weighting, &mut sample, seen, &self.factor, self.samples)?;
+        let evidence = known.evidence(&sample, &self.factor, seen, self.samples);
+        let lambda = self.rate.forgetting_factor(&self.rate_state, &evidence)?;
         if !(lambda > M::Real::ZERO && lambda <= M::Real::ONE) {
             return Err(Error::value("forgetting_factor", lambda.to_f64(), "(0, 1]"));
         }
@@ -202,13 +199,13 @@ where
         } else {
             let (gain, theta) = (self.work.gain.as_mut(), self.theta.as_mut());
             let leverage = measure(&mut self.factor, &sample, gain, theta, &mut intake.remaining);
-            let evidence = known.evidence(&sample, &self.factor, self.samples);
+            let evidence = known.evidence(&sample, &self.factor, seen, self.samples);
             self.rate.learn(&mut self.rate_state, &evidence, lambda);
             self.samples += 1;
             leverage
         };
         if let Some(monitor) = &mut self.monitor {
-            let Known { squared_error, .. } = known;
+            let squared_error = known.used_error();
             let seen = Seen { sample: &sample, squared_error, leverage, forgetting_factor: lambda };
             monitor.watch(&self.factor, skipped.is_none().then_some(seen));
         }
@@ -250,6 +247,11 @@ where
     /// The design of the forgetting factor.
     pub fn rate(&self) -> &R {
         &self.rate
+    }
+
+    /// What the design of the forgetting factor remembers.
+    pub fn rate_state(&self) -> &R::State {
+        &self.rate_state
     }
 
     /// The weighting of samples.

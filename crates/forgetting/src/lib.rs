@@ -19,6 +19,7 @@ extern crate alloc;
 mod directions;
 mod error;
 mod estimator;
+mod evidence;
 #[cfg(feature = "alloc")]
 mod excitation;
 pub mod factor;
@@ -41,6 +42,7 @@ mod work;
 
 pub use error::Error;
 pub use estimator::{Estimator, Update};
+pub use evidence::{Evidence, Needs};
 #[cfg(feature = "alloc")]
 pub use excitation::Excitation;
 pub use factor::Factor;

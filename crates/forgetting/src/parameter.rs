@@ -93,6 +93,8 @@ pub enum Value<'a> {
         /// the number at a position, row by row
         elements: &'a dyn Fn(usize) -> f64,
     },
+    /// a function of the user's, as the type that the parameter is described by
+    Function(&'a (dyn core::any::Any + Send + Sync)),
 }
 
 impl core::fmt::Debug for Value<'_> {
@@ -101,6 +103,7 @@ impl core::fmt::Debug for Value<'_> {
             Self::Real(x) => write!(f, "{x}"),
             Self::Word(word) => write!(f, "{word}"),
             Self::Matrix { rows, columns, .. } => write!(f, "{rows} x {columns} numbers"),
+            Self::Function(_) => write!(f, "a function"),
         }
     }
 }
