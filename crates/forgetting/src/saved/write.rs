@@ -26,16 +26,23 @@ fn choice(
     name: &str,
     describe: impl Fn(&mut dyn FnMut(&'static str, Value<'_>)),
 ) {
-    word(bytes, name);
-    let mut count = 0u8;
-    let position = bytes.len();
-    bytes.push(count);
-    describe(&mut |name, given| {
-        count += 1;
-        word(bytes, name);
-        value(bytes, given);
-    });
+    let (count, position) = begin(bytes, name);
+    let mut count = count;
+    describe(&mut |name, given| parameter(bytes, &mut count, name, given));
     bytes[position] = count;
+}
+
+/// A name, and room for a number of parameters: that number (none yet) and where it goes.
+fn begin(bytes: &mut Vec<u8>, name: &str) -> (u8, usize) {
+    word(bytes, name);
+    bytes.push(0);
+    (0, bytes.len() - 1)
+}
+
+fn parameter(bytes: &mut Vec<u8>, count: &mut u8, name: &str, given: Value<'_>) {
+    *count += 1;
+    word(bytes, name);
+    value(bytes, given);
 }
 
 fn word(bytes: &mut Vec<u8>, word: &str) {
@@ -61,6 +68,12 @@ fn value(bytes: &mut Vec<u8>, value: Value<'_>) {
             for k in 0..rows * columns {
                 bytes.extend_from_slice(&elements(k).to_le_bytes());
             }
+        }
+        Value::Choice { name, values } => {
+            bytes.push(3);
+            let (mut count, position) = begin(bytes, name);
+            values.each(&mut |name, given| parameter(bytes, &mut count, name, given));
+            bytes[position] = count;
         }
     }
 }
