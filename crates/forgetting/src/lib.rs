@@ -15,7 +15,11 @@
 
 #[cfg(feature = "alloc")]
 extern crate alloc;
+#[cfg(test)]
+extern crate std;
 
+mod blocks;
+pub mod criterion;
 mod directions;
 mod error;
 mod estimator;
@@ -37,9 +41,12 @@ mod sample;
 #[cfg(feature = "alloc")]
 pub mod saved;
 pub mod state;
+#[cfg(test)]
+mod testing;
 pub mod weighting;
 mod work;
 
+pub use blocks::Blocks;
 pub use error::Error;
 pub use estimator::{Estimator, Update};
 pub use evidence::{Evidence, Needs};
@@ -55,7 +62,11 @@ pub use prior::Prior;
 pub use rates::{Constant, Rate};
 pub use real::Real;
 pub use root::Root;
-pub use rules::{Exponential, ExponentialResetting, Forgetting, NoForgetting, Skip, Subspace};
+pub use rules::{
+    Component, CovarianceResetting, CyclicResetting, DataDependent, Directional, Exponential,
+    ExponentialResetting, Forgetting, NoForgetting, ObliqueProjection, RandomWalk, Restricted,
+    Skip, Subspace,
+};
 pub use sample::Sample;
 pub use weighting::{Equal, Weighting};
 pub use work::Work;

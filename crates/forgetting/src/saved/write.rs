@@ -30,20 +30,31 @@ fn choice(
     name: &str,
     describe: impl Fn(&mut dyn FnMut(&'static str, Value<'_>)),
 ) -> Result<(), Error> {
-    word(bytes, name);
-    let mut count = 0u8;
-    let position = bytes.len();
-    bytes.push(count);
+    let (mut count, position) = begin(bytes, name);
     let mut outcome = Ok(());
     describe(&mut |name, given| {
-        count += 1;
-        word(bytes, name);
-        if let Err(error) = value(bytes, given) {
-            outcome = Err(error);
-        }
+        outcome = outcome.and(parameter(bytes, &mut count, name, given));
     });
     bytes[position] = count;
     outcome
+}
+
+/// A name, and room for a number of parameters: that number (none yet) and where it goes.
+fn begin(bytes: &mut Vec<u8>, name: &str) -> (u8, usize) {
+    word(bytes, name);
+    bytes.push(0);
+    (0, bytes.len() - 1)
+}
+
+fn parameter(
+    bytes: &mut Vec<u8>,
+    count: &mut u8,
+    name: &str,
+    given: Value<'_>,
+) -> Result<(), Error> {
+    *count += 1;
+    word(bytes, name);
+    value(bytes, given)
 }
 
 fn word(bytes: &mut Vec<u8>, word: &str) {
@@ -74,6 +85,16 @@ fn value(bytes: &mut Vec<u8>, value: Value<'_>) -> Result<(), Error> {
             let reason = "an estimator that uses a function of yours cannot be saved: a function \
                           is not data";
             return Err(Error::Unsupported { reason });
+        }
+        Value::Choice { name, values } => {
+            bytes.push(3);
+            let (mut count, position) = begin(bytes, name);
+            let mut outcome = Ok(());
+            values.each(&mut |name, given| {
+                outcome = outcome.and(parameter(bytes, &mut count, name, given));
+            });
+            bytes[position] = count;
+            outcome?;
         }
     }
     Ok(())
