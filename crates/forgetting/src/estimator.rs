@@ -193,7 +193,8 @@ where
             forgetting_factor: lambda,
             work: &mut self.work,
         };
-        let Forgotten { rank, skipped } = self.rule.forget(&mut self.rule_state, step)?;
+        let Forgotten { rank, skipped, forgetting_factor } =
+            self.rule.forget(&mut self.rule_state, step)?;
         let leverage = if skipped.is_some() {
             leverage(&self.factor, &sample)
         } else {
@@ -212,7 +213,7 @@ where
         Ok(Update {
             error: self.intake.innovations.as_ref(),
             leverage,
-            forgetting_factor: lambda,
+            forgetting_factor: forgetting_factor.map_or(lambda, M::Real::from_f64),
             rank,
             skipped,
             windup: match &self.monitor {

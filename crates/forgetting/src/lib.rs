@@ -15,7 +15,11 @@
 
 #[cfg(feature = "alloc")]
 extern crate alloc;
+#[cfg(test)]
+extern crate std;
 
+mod blocks;
+pub mod criterion;
 mod directions;
 mod error;
 mod estimator;
@@ -37,9 +41,12 @@ mod sample;
 #[cfg(feature = "alloc")]
 pub mod saved;
 pub mod state;
+#[cfg(test)]
+mod testing;
 pub mod weighting;
 mod work;
 
+pub use blocks::Blocks;
 pub use error::Error;
 pub use estimator::{Estimator, Update};
 pub use evidence::{Evidence, Needs};
@@ -52,10 +59,17 @@ pub use memory::Dynamic;
 pub use memory::{Buffer, Fixed, Grid, Memory, Packed, Size};
 pub use monitor::Health;
 pub use prior::Prior;
-pub use rates::{Constant, Rate};
+pub use rates::{
+    Constant, ExactGradient, FTest, Fortescue, Gradient, NoisePower, PredictionError, Rate,
+    RmsRatio, Schedule, UnityZone,
+};
 pub use real::Real;
 pub use root::Root;
-pub use rules::{Exponential, ExponentialResetting, Forgetting, NoForgetting, Skip, Subspace};
+pub use rules::{
+    Component, CovarianceResetting, CyclicResetting, DataDependent, Directional, Exponential,
+    ExponentialResetting, Forgetting, NoForgetting, ObliqueProjection, RandomWalk, Restricted,
+    Skip, Subspace,
+};
 pub use sample::Sample;
-pub use weighting::{Equal, Weighting};
+pub use weighting::{Equal, Huber, StudentT, Weighting};
 pub use work::Work;

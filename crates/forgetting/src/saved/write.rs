@@ -16,10 +16,12 @@ pub fn header<T: Real>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
     }
     bytes.push(estimator.prior().form());
     bytes.push(u8::from(estimator.health().is_some()));
-    choice(&mut bytes, estimator.rule().about().name, |each| estimator.rule().describe(each))?;
-    choice(&mut bytes, estimator.rate().about().name, |each| estimator.rate().describe(each))?;
-    choice(&mut bytes, estimator.weighting().about().name, |each| {
-        estimator.weighting().describe(each);
+    let (rule, rate, weighting) = (estimator.rule(), estimator.rate(), estimator.weighting());
+    let (of_rule, of_rate) = (rule.about().name, rate.about().name);
+    choice(&mut bytes, of_rule, |each| rule.describe(&mut |name, value| each(name, value)))?;
+    choice(&mut bytes, of_rate, |each| rate.describe(&mut |name, value| each(name, value)))?;
+    choice(&mut bytes, weighting.about().name, |each| {
+        weighting.describe(&mut |name, value| each(name, value));
     })?;
     Ok(bytes)
 }
@@ -28,19 +30,15 @@ pub fn header<T: Real>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
 fn choice(
     bytes: &mut Vec<u8>,
     name: &str,
-    describe: impl Fn(&mut dyn FnMut(&'static str, Value<'_>)),
+    each: impl FnOnce(&mut dyn FnMut(&str, Value<'_>)),
 ) -> Result<(), Error> {
     word(bytes, name);
-    let mut count = 0u8;
-    let position = bytes.len();
-    bytes.push(count);
-    let mut outcome = Ok(());
-    describe(&mut |name, given| {
+    bytes.push(0);
+    let (position, mut count, mut outcome) = (bytes.len() - 1, 0, Ok(()));
+    each(&mut |name, given| {
         count += 1;
         word(bytes, name);
-        if let Err(error) = value(bytes, given) {
-            outcome = Err(error);
-        }
+        outcome = outcome.and(value(bytes, given));
     });
     bytes[position] = count;
     outcome
@@ -69,6 +67,10 @@ fn value(bytes: &mut Vec<u8>, value: Value<'_>) -> Result<(), Error> {
             for k in 0..rows * columns {
                 bytes.extend_from_slice(&elements(k).to_le_bytes());
             }
+        }
+        Value::Choice { name, values } => {
+            bytes.push(3);
+            choice(bytes, name, |each| values.each(each))?;
         }
         Value::Function(_) => {
             let reason = "an estimator that uses a function of yours cannot be saved: a function \
