@@ -59,7 +59,10 @@ pub use memory::Dynamic;
 pub use memory::{Buffer, Fixed, Grid, Memory, Packed, Size};
 pub use monitor::Health;
 pub use prior::Prior;
-pub use rates::{Constant, Rate};
+pub use rates::{
+    Constant, ExactGradient, FTest, Fortescue, Gradient, NoisePower, PredictionError, Rate,
+    RmsRatio, Schedule, UnityZone,
+};
 pub use real::Real;
 pub use root::Root;
 pub use rules::{
@@ -68,5 +71,5 @@ pub use rules::{
     Skip, Subspace,
 };
 pub use sample::Sample;
-pub use weighting::{Equal, Weighting};
+pub use weighting::{Equal, Huber, StudentT, Weighting};
 pub use work::Work;

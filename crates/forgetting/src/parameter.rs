@@ -97,8 +97,6 @@ pub enum Value<'a> {
         /// the number at a position, row by row
         elements: &'a dyn Fn(usize) -> f64,
     },
-    /// a function of the user's, as the type that the parameter is described by
-    Function(&'a (dyn core::any::Any + Send + Sync)),
     /// an entry of a registry with values for its own parameters
     Choice {
         /// the registry name
@@ -106,6 +104,8 @@ pub enum Value<'a> {
         /// the values of its parameters
         values: &'a dyn Values,
     },
+    /// a function of the user's, as the type that the parameter is described by
+    Function(&'a (dyn core::any::Any + Send + Sync)),
 }
 
 impl core::fmt::Debug for Value<'_> {
@@ -114,8 +114,8 @@ impl core::fmt::Debug for Value<'_> {
             Self::Real(x) => write!(f, "{x}"),
             Self::Word(word) => write!(f, "{word}"),
             Self::Matrix { rows, columns, .. } => write!(f, "{rows} x {columns} numbers"),
-            Self::Function(_) => write!(f, "a function"),
             Self::Choice { name, .. } => write!(f, "{name}(...)"),
+            Self::Function(_) => write!(f, "a function"),
         }
     }
 }

@@ -16,10 +16,12 @@ pub fn header<T: Real>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
     }
     bytes.push(estimator.prior().form());
     bytes.push(u8::from(estimator.health().is_some()));
-    choice(&mut bytes, estimator.rule().about().name, |each| estimator.rule().describe(each))?;
-    choice(&mut bytes, estimator.rate().about().name, |each| estimator.rate().describe(each))?;
-    choice(&mut bytes, estimator.weighting().about().name, |each| {
-        estimator.weighting().describe(each);
+    let (rule, rate, weighting) = (estimator.rule(), estimator.rate(), estimator.weighting());
+    let (of_rule, of_rate) = (rule.about().name, rate.about().name);
+    choice(&mut bytes, of_rule, |each| rule.describe(&mut |name, value| each(name, value)))?;
+    choice(&mut bytes, of_rate, |each| rate.describe(&mut |name, value| each(name, value)))?;
+    choice(&mut bytes, weighting.about().name, |each| {
+        weighting.describe(&mut |name, value| each(name, value));
     })?;
     Ok(bytes)
 }
@@ -28,33 +30,18 @@ pub fn header<T: Real>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
 fn choice(
     bytes: &mut Vec<u8>,
     name: &str,
-    describe: impl Fn(&mut dyn FnMut(&'static str, Value<'_>)),
+    each: impl FnOnce(&mut dyn FnMut(&str, Value<'_>)),
 ) -> Result<(), Error> {
-    let (mut count, position) = begin(bytes, name);
-    let mut outcome = Ok(());
-    describe(&mut |name, given| {
-        outcome = outcome.and(parameter(bytes, &mut count, name, given));
+    word(bytes, name);
+    bytes.push(0);
+    let (position, mut count, mut outcome) = (bytes.len() - 1, 0, Ok(()));
+    each(&mut |name, given| {
+        count += 1;
+        word(bytes, name);
+        outcome = outcome.and(value(bytes, given));
     });
     bytes[position] = count;
     outcome
-}
-
-/// A name, and room for a number of parameters: that number (none yet) and where it goes.
-fn begin(bytes: &mut Vec<u8>, name: &str) -> (u8, usize) {
-    word(bytes, name);
-    bytes.push(0);
-    (0, bytes.len() - 1)
-}
-
-fn parameter(
-    bytes: &mut Vec<u8>,
-    count: &mut u8,
-    name: &str,
-    given: Value<'_>,
-) -> Result<(), Error> {
-    *count += 1;
-    word(bytes, name);
-    value(bytes, given)
 }
 
 fn word(bytes: &mut Vec<u8>, word: &str) {
@@ -81,20 +68,14 @@ fn value(bytes: &mut Vec<u8>, value: Value<'_>) -> Result<(), Error> {
                 bytes.extend_from_slice(&elements(k).to_le_bytes());
             }
         }
+        Value::Choice { name, values } => {
+            bytes.push(3);
+            choice(bytes, name, |each| values.each(each))?;
+        }
         Value::Function(_) => {
             let reason = "an estimator that uses a function of yours cannot be saved: a function \
                           is not data";
             return Err(Error::Unsupported { reason });
-        }
-        Value::Choice { name, values } => {
-            bytes.push(3);
-            let (mut count, position) = begin(bytes, name);
-            let mut outcome = Ok(());
-            values.each(&mut |name, given| {
-                outcome = outcome.and(parameter(bytes, &mut count, name, given));
-            });
-            bytes[position] = count;
-            outcome?;
         }
     }
     Ok(())
