@@ -32,6 +32,7 @@ pub mod rules;
 mod sample;
 #[cfg(feature = "alloc")]
 pub mod saved;
+pub mod spectrum;
 pub mod state;
 pub mod weighting;
 mod work;
@@ -47,6 +48,7 @@ pub use prior::Prior;
 pub use rates::{Constant, Rate};
 pub use real::Real;
 pub use root::Root;
+pub use rules::VariableDirection;
 pub use rules::{Exponential, ExponentialResetting, Forgetting, NoForgetting, Skip, Subspace};
 pub use sample::Sample;
 pub use weighting::{Equal, Weighting};

@@ -192,4 +192,5 @@ registry! {
     exponential::Exponential,
     exponential_resetting::ExponentialResetting,
     subspace::Subspace,
+    variable_direction::VariableDirection,
 }
