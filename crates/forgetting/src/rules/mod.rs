@@ -193,4 +193,8 @@ registry! {
     exponential_resetting::ExponentialResetting,
     subspace::Subspace,
     variable_direction::VariableDirection,
+    matrix_forgetting::MatrixForgetting,
+    efra::Efra,
+    constant_trace::ConstantTrace,
+    multiple::Multiple,
 }

@@ -249,3 +249,39 @@ pub fn result<T: Real, F: Forgetting<Dynamic<T>>>(
     let convert = |x: &[T]| x.iter().map(|x| x.to_f64()).collect::<Vec<f64>>();
     (Dense::new(n, 1, convert(estimator.theta())), Dense::new(n, n, convert(&covariance)))
 }
+
+/// The largest distance of θ and P from a published form, which `step` advances by a sample.
+pub fn worst<T: Real, F: Forgetting<Dynamic<T>>>(
+    rule: F,
+    lambda: f64,
+    variance: f64,
+    samples: &[(Dense, Dense)],
+    mut step: impl FnMut(&mut Published, &Dense, &Dense),
+) -> f64 {
+    let (p, n) = (samples[0].0.rows, samples[0].0.columns);
+    let memory = Dynamic::<T>::new(n, p, 1).unwrap();
+    let mut ours = estimator(rule, lambda, memory, variance);
+    let mut theirs = Published::new(n, variance);
+    let mut worst = 0.0f64;
+    for (phi, y) in samples {
+        update(&mut ours, phi, y);
+        step(&mut theirs, phi, y);
+        let (theta, covariance) = result(&ours);
+        worst = worst.max(theta.distance(&theirs.theta));
+        worst = worst.max(covariance.distance(&theirs.covariance));
+    }
+    worst
+}
+
+/// All inputs, with n in {1, 2, 4, 8} and p up to `rows`.
+pub fn records(rows: usize, samples: usize) -> Vec<(Input, Vec<(Dense, Dense)>)> {
+    let mut all = Vec::new();
+    for input in INPUTS {
+        for n in [1, 2, 4, 8] {
+            for p in 1..=rows {
+                all.push((input, record(input, samples, n, p)));
+            }
+        }
+    }
+    all
+}
