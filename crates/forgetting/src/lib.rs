@@ -33,6 +33,7 @@ mod sample;
 #[cfg(feature = "alloc")]
 pub mod saved;
 pub mod state;
+pub mod vector;
 pub mod weighting;
 mod work;
 
@@ -45,7 +46,7 @@ pub use memory::Dynamic;
 pub use memory::{Buffer, Fixed, Grid, Memory, Packed, Size};
 pub use prior::Prior;
 pub use rates::{Constant, Rate};
-pub use real::Real;
+pub use real::{Kernel, Real};
 pub use root::Root;
 pub use rules::{Exponential, ExponentialResetting, Forgetting, NoForgetting, Skip, Subspace};
 pub use sample::Sample;
