@@ -9,6 +9,7 @@
 use crate::factor::kernel::dot;
 use crate::intake::{whiten, Intake, Known, Noise};
 use crate::measure::{leverage, measure};
+use crate::monitor::{Health, Monitor, Seen};
 use crate::rates::Rate;
 use crate::rules::{Forgetting, Forgotten, Skip, Step};
 use crate::state::{State, Visitor};
@@ -28,6 +29,7 @@ pub struct Update<'a, T> {
     pub rank: usize,
     /// why the sample was left out, if it was
     pub skipped: Option<Skip>,
+    /// whether P has wound up: as the watch says ([`Health::windup`]) if there is one, else
     /// whether P has grown beyond [`Estimator::WINDUP`] times its first value
     pub windup: bool,
 }
@@ -70,6 +72,7 @@ where
     rate_state: R::State,
     samples: u64,
     windup_limit: M::Real,
+    monitor: Option<Monitor<M>>,
     intake: Intake<M>,
     work: Work<M>,
 }
@@ -93,6 +96,7 @@ where
             rule_state: rule.start(memory),
             rate_state: rate.start(memory),
             windup_limit: M::Real::from_f64(Self::WINDUP) * factor.largest(),
+            monitor: None,
             intake: Intake::new(memory),
             work: Work::new(memory),
             samples: 0,
@@ -112,6 +116,19 @@ where
         self.rule_state = self.rule.start(memory);
         self.rate_state = self.rate.start(memory);
         self.samples = 0;
+        if self.monitor.is_some() {
+            self.monitor = Some(Monitor::new(&self.factor, self.rule.is_bounded()));
+        }
+    }
+
+    /// Watches from now on: [`Estimator::health`] tells what it sees. O(n) a sample.
+    pub fn watch(&mut self) {
+        self.monitor = Some(Monitor::new(&self.factor, self.rule.is_bounded()));
+    }
+
+    /// What the watch has seen, if there is one.
+    pub fn health(&self) -> Option<Health<'_, M::Real>> {
+        self.monitor.as_ref().map(Monitor::health)
     }
 
     /// φθ for p x n numbers `phi`, row by row; writes p x m numbers to `prediction`.
@@ -190,13 +207,21 @@ where
             self.samples += 1;
             leverage
         };
+        if let Some(monitor) = &mut self.monitor {
+            let Known { squared_error, .. } = known;
+            let seen = Seen { sample: &sample, squared_error, leverage, forgetting_factor: lambda };
+            monitor.watch(&self.factor, skipped.is_none().then_some(seen));
+        }
         Ok(Update {
             error: self.intake.innovations.as_ref(),
             leverage,
             forgetting_factor: lambda,
             rank,
             skipped,
-            windup: self.factor.largest() > self.windup_limit,
+            windup: match &self.monitor {
+                Some(monitor) => monitor.windup(),
+                None => self.factor.largest() > self.windup_limit,
+            },
         })
     }
 
@@ -249,5 +274,8 @@ where
         self.rule_state.visit(visitor);
         self.rate_state.visit(visitor);
         visitor.whole(&mut self.samples);
+        if let Some(monitor) = &mut self.monitor {
+            monitor.visit(visitor);
+        }
     }
 }

@@ -19,10 +19,13 @@ extern crate alloc;
 mod directions;
 mod error;
 mod estimator;
+#[cfg(feature = "alloc")]
+mod excitation;
 pub mod factor;
 mod intake;
 mod measure;
 mod memory;
+pub mod monitor;
 pub mod parameter;
 mod prior;
 pub mod rates;
@@ -39,11 +42,14 @@ mod work;
 
 pub use error::Error;
 pub use estimator::{Estimator, Update};
+#[cfg(feature = "alloc")]
+pub use excitation::Excitation;
 pub use factor::Factor;
 pub use intake::Noise;
 #[cfg(feature = "alloc")]
 pub use memory::Dynamic;
 pub use memory::{Buffer, Fixed, Grid, Memory, Packed, Size};
+pub use monitor::Health;
 pub use prior::Prior;
 pub use rates::{Constant, Rate};
 pub use real::{Kernel, Real};

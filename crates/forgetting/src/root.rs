@@ -97,6 +97,11 @@ impl<M: Memory> Root<M> {
         self.rows.as_ref()[..self.rank * n].chunks_exact(n)
     }
 
+    /// n
+    pub fn parameters(&self) -> usize {
+        self.memory.parameters()
+    }
+
     /// The rank of the matrix.
     pub fn rank(&self) -> usize {
         self.rank

@@ -7,6 +7,7 @@
 //! | number type | one byte, 4 or 8: the bytes of a number |
 //! | sizes | n, p, m as 32-bit numbers |
 //! | form of P₀ | one byte |
+//! | watched | one byte, 0 or 1 |
 //! | rule, rate, weighting | each a name and its parameters by name |
 //! | numbers | the prior, then the state, in the order of `visit` |
 //! | check | CRC-32 of all before it |

@@ -92,6 +92,11 @@ pub trait Forgetting<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
     /// The state before the first sample.
     fn start(&self, memory: M) -> Self::State;
 
+    /// Whether P̄ stays bounded whatever the input (A2), so that it cannot wind up.
+    fn is_bounded(&self) -> bool {
+        false
+    }
+
     /// Forgets. Changes P, may rotate, scale or drop rows of the sample.
     ///
     /// # Errors
@@ -169,6 +174,12 @@ macro_rules! registry {
             fn start(&self, memory: M) -> Self::State {
                 match self {
                     $(Self::$Rule(rule) => RuleState::$Rule(rule.start(memory)),)*
+                }
+            }
+
+            fn is_bounded(&self) -> bool {
+                match self {
+                    $(Self::$Rule(rule) => rule.is_bounded(),)*
                 }
             }
 

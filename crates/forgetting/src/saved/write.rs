@@ -12,6 +12,7 @@ pub fn header<T: Real>(estimator: &AnyEstimator<T>) -> Vec<u8> {
         bytes.extend_from_slice(&(size as u32).to_le_bytes());
     }
     bytes.push(estimator.prior().form());
+    bytes.push(u8::from(estimator.health().is_some()));
     choice(&mut bytes, estimator.rule().about().name, |each| estimator.rule().describe(each));
     choice(&mut bytes, estimator.rate().about().name, |each| estimator.rate().describe(each));
     choice(&mut bytes, estimator.weighting().about().name, |each| {
