@@ -40,9 +40,11 @@ pub mod rules;
 mod sample;
 #[cfg(feature = "alloc")]
 pub mod saved;
+pub mod spectrum;
 pub mod state;
 #[cfg(test)]
 mod testing;
+pub mod vector;
 pub mod weighting;
 mod work;
 
@@ -59,17 +61,10 @@ pub use memory::Dynamic;
 pub use memory::{Buffer, Fixed, Grid, Memory, Packed, Size};
 pub use monitor::Health;
 pub use prior::Prior;
-pub use rates::{
-    Constant, ExactGradient, FTest, Fortescue, Gradient, NoisePower, PredictionError, Rate,
-    RmsRatio, Schedule, UnityZone,
-};
-pub use real::Real;
+pub use rates::{Constant, Rate};
+pub use real::{Kernel, Real};
 pub use root::Root;
-pub use rules::{
-    Component, CovarianceResetting, CyclicResetting, DataDependent, Directional, Exponential,
-    ExponentialResetting, Forgetting, NoForgetting, ObliqueProjection, RandomWalk, Restricted,
-    Skip, Subspace,
-};
+pub use rules::{Exponential, ExponentialResetting, Forgetting, NoForgetting, Skip, Subspace};
 pub use sample::Sample;
-pub use weighting::{Equal, Huber, StudentT, Weighting};
+pub use weighting::{Equal, Weighting};
 pub use work::Work;

@@ -37,6 +37,11 @@ impl Range {
         Self { low, high, low_included: false, high_included: false, words }
     }
 
+    /// [low, high], printed as `words`.
+    pub const fn closed(low: f64, high: f64, words: &'static str) -> Self {
+        Self { low, high, low_included: true, high_included: true, words }
+    }
+
     /// Whether the range has `x`; never for NaN.
     pub fn contains(&self, x: f64) -> bool {
         let above = x > self.low || (self.low_included && x == self.low);

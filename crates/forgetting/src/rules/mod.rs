@@ -268,4 +268,9 @@ registry! {
     data_dependent::DataDependent,
     component::Component,
     random_walk::RandomWalk,
+    variable_direction::VariableDirection,
+    matrix_forgetting::MatrixForgetting,
+    efra::Efra,
+    constant_trace::ConstantTrace,
+    multiple::Multiple,
 }
