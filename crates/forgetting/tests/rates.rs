@@ -5,7 +5,9 @@ use forgetting::rates::{AnyRate, Evidence, Function, Rate, RATES};
 use forgetting::rules::Rule;
 use forgetting::saved::AnyEstimator;
 use forgetting::weighting::{AnyWeighting, Weighting, WEIGHTINGS};
-use forgetting::{Dynamic, Error, Estimator, Fixed, Memory, Noise, Prior, Real};
+use forgetting::{
+    Dynamic, Error, Estimator, Fixed, Forgetting, Memory, Noise, Prior, Real, Subspace,
+};
 
 const RULES: [&str; 4] = ["none", "exponential", "exponential_resetting", "subspace"];
 
@@ -33,16 +35,22 @@ impl<M: Memory> Values for Given<'_, M> {
     }
 }
 
-type Any<M> = Estimator<Rule<M>, AnyRate<M>, AnyWeighting<M>, M>;
+type With<F, M> = Estimator<F, AnyRate<M>, AnyWeighting<M>, M>;
 
-/// An estimator with these names, values for the rate and defaults elsewhere.
-fn make<M: Memory>(
+/// An estimator with a rule, a rate and a weighting of these names.
+fn make<T: Real>(memory: Dynamic<T>, [rule, rate, weighting]: [&str; 3]) -> AnyEstimator<T> {
+    with(Rule::named(rule, &Defaults, memory).unwrap(), memory, [rate, weighting], &[])
+}
+
+/// An estimator with this rule, values for the rate and defaults elsewhere.
+fn with<F: Forgetting<M>, M: Memory>(
+    rule: F,
     memory: M,
-    [rule, rate, weighting]: [&str; 3],
+    [rate, weighting]: [&str; 2],
     values: &[(&str, Value<'_>)],
-) -> Any<M> {
+) -> With<F, M> {
     Estimator::new(
-        Rule::named(rule, &Defaults, memory).unwrap(),
+        rule,
         AnyRate::named(rate, &Given::<M>::new(values), memory).unwrap(),
         AnyWeighting::named(weighting, &Defaults, memory).unwrap(),
         Prior::scalar(memory, M::Real::from_f64(100.0)).unwrap(),
@@ -82,10 +90,10 @@ fn sample<M: Memory>(memory: M, k: usize) -> (Vec<M::Real>, Vec<M::Real>) {
     (phi.into_iter().map(M::Real::from_f64).collect(), y)
 }
 
-/// Takes a sample; returns its λ. One copy for each memory: an update is all inlined.
+/// Takes a sample; returns its λ. Not to be inlined: an update is large.
 #[inline(never)]
-fn take<M: Memory>(
-    estimator: &mut Any<M>,
+fn take<F: Forgetting<M>, M: Memory>(
+    estimator: &mut With<F, M>,
     phi: &[M::Real],
     y: &[M::Real],
     noise: Noise<'_, M::Real>,
@@ -94,7 +102,11 @@ fn take<M: Memory>(
 }
 
 /// λ of samples `from..to`, as bits.
-fn factors<M: Memory>(estimator: &mut Any<M>, from: usize, to: usize) -> Vec<u64> {
+fn factors<F, M>(estimator: &mut With<F, M>, from: usize, to: usize) -> Vec<u64>
+where
+    F: Forgetting<M>,
+    M: Memory,
+{
     let memory = estimator.prior().memory();
     let bits = |k| {
         let (phi, y) = sample(memory, k);
@@ -180,7 +192,8 @@ fn stays_within_its_limits<T: Real>(rate: &str, sizes: (usize, usize, usize)) {
     let narrow = [("smallest", Value::Real(0.95)), ("largest", Value::Real(0.98))];
     for values in [&[][..], &narrow] {
         for rule in RULES {
-            let mut estimator = make(memory, [rule, rate, "equal"], values);
+            let rule_of_name = Rule::named(rule, &Defaults, memory).unwrap();
+            let mut estimator = with(rule_of_name, memory, [rate, "equal"], values);
             let limit = |name, default| number(estimator.rate(), name).unwrap_or(default);
             let (smallest, largest) = (limit("smallest", f64::MIN_POSITIVE), limit("largest", 1.0));
             let found = factors(&mut estimator, 0, 400);
@@ -211,7 +224,7 @@ fn no_factor_depends_on_the_units_of_the_output() {
         for (n, p, m) in [(3, 1, 1), (2, 2, 2)] {
             let memory = Dynamic::<f64>::new(n, p, m).unwrap();
             let names = ["exponential", about.name, "huber"];
-            let mut plain = make(memory, names, &[]);
+            let mut plain = make(memory, names);
             let mut scaled = Estimator::new(
                 plain.rule().clone(),
                 plain.rate().clone(),
@@ -240,7 +253,7 @@ fn saved_rates() -> impl Iterator<Item = &'static str> {
 
 fn saves_in_the_middle<T: Real>(rate: &str, weighting: &str) {
     let memory = Dynamic::<T>::new(3, 2, 2).unwrap();
-    let mut whole: AnyEstimator<T> = make(memory, ["subspace", rate, weighting], &[]);
+    let mut whole = make(memory, ["subspace", rate, weighting]);
     for stop in [0, 1, 137] {
         let mut restored = AnyEstimator::<T>::from_bytes(&whole.to_bytes().unwrap()).unwrap();
         let next = stop.max(1) * 2;
@@ -269,7 +282,7 @@ fn a_refused_sample_changes_no_bit() {
     for rate in saved_rates() {
         for weighting in WEIGHTINGS {
             let memory = Dynamic::<f64>::new(3, 2, 1).unwrap();
-            let mut estimator = make(memory, ["exponential", rate, weighting.name], &[]);
+            let mut estimator = make(memory, ["exponential", rate, weighting.name]);
             factors(&mut estimator, 0, 120);
             let before = estimator.to_bytes().unwrap();
             let (phi, y) = sample(memory, 120);
@@ -317,17 +330,23 @@ fn a_sample_that_the_rule_refuses_changes_no_bit() {
     }
 }
 
+/// λ of a record with the rule `subspace`.
+fn with_subspace<M: Memory>(memory: M, names: [&str; 2]) -> Vec<u64> {
+    let rule = Subspace::new(M::Real::from_f64(1e-3)).unwrap();
+    factors(&mut with(rule, memory, names, &[]), 0, 400)
+}
+
 #[test]
 fn fixed_and_dynamic_sizes_give_the_same_bits() {
     for rate in RATES {
         for weighting in WEIGHTINGS {
-            let names = ["subspace", rate.name, weighting.name];
-            let fixed = factors(&mut make(Fixed::<f64, 3, 2, 2, 512>::new(), names, &[]), 0, 400);
-            let dynamic = Dynamic::<f64>::new(3, 2, 2).unwrap();
-            assert_eq!(factors(&mut make(dynamic, names, &[]), 0, 400), fixed, "{names:?}");
-            let fixed = factors(&mut make(Fixed::<f32, 2, 1, 1, 101>::new(), names, &[]), 0, 400);
-            let dynamic = Dynamic::<f32>::new(2, 1, 1).unwrap();
-            assert_eq!(factors(&mut make(dynamic, names, &[]), 0, 400), fixed, "{names:?}");
+            let names = [rate.name, weighting.name];
+            let fixed = with_subspace(Fixed::<f64, 3, 2, 2, 512>::new(), names);
+            let dynamic = with_subspace(Dynamic::<f64>::new(3, 2, 2).unwrap(), names);
+            assert_eq!(fixed, dynamic, "{names:?}");
+            let fixed = with_subspace(Fixed::<f32, 2, 1, 1, 101>::new(), names);
+            let dynamic = with_subspace(Dynamic::<f32>::new(2, 1, 1).unwrap(), names);
+            assert_eq!(fixed, dynamic, "{names:?}");
         }
     }
 }
@@ -335,7 +354,7 @@ fn fixed_and_dynamic_sizes_give_the_same_bits() {
 /// 10⁵ samples with nothing in them, then noise without a regressor, then one direction.
 fn survives_silence<T: Real>(rate: &str, rule: &str) {
     let memory = Dynamic::<T>::new(3, 1, 1).unwrap();
-    let mut estimator = make(memory, [rule, rate, "student_t"], &[]);
+    let mut estimator = make(memory, [rule, rate, "student_t"]);
     factors(&mut estimator, 0, 120);
     let (zero, one) = (T::ZERO, T::ONE);
     for k in 0..100_000 {
@@ -384,7 +403,7 @@ fn an_outlier_has_bounded_influence() {
     let full = [gamma[0], 0.0, 0.0, gamma[1]];
     let mut bounded = 0;
     for weighting in WEIGHTINGS {
-        let mut estimator = make(memory, ["none", "constant", weighting.name], &[]);
+        let mut estimator = make(memory, ["none", "constant", weighting.name]);
         let Some(c) = estimator.weighting().influence(2) else { continue };
         bounded += 1;
         for k in 0..100 {
@@ -424,7 +443,7 @@ fn an_outlier_has_bounded_influence() {
 fn no_rate_forgets_more_for_a_larger_outlier() {
     let memory = Dynamic::<f64>::new(2, 1, 1).unwrap();
     for about in RATES {
-        let mut estimator = make(memory, ["exponential", about.name, "huber"], &[]);
+        let mut estimator = make(memory, ["exponential", about.name, "huber"]);
         factors(&mut estimator, 0, 149);
         let (phi, y) = sample(memory, 149);
         let after = |size: f64| {
