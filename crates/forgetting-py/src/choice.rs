@@ -145,8 +145,10 @@ pub fn write_value<'py>(py: Python<'py>, value: Value<'_>) -> PyResult<Bound<'py
         Value::Matrix { rows, columns, elements } => {
             let elements: Vec<f64> = (0..rows * columns).map(elements).collect();
             let shape: &[usize] = if rows == 1 { &[columns] } else { &[rows, columns] };
-            crate::arrays::shaped(py, elements, shape)
+            // a list compares and prints as it was given
+            crate::arrays::shaped(py, elements, shape)?.call_method0("tolist")
         }
+        Value::Function(_) => Ok(py.None().into_bound(py)),
         Value::Choice { name, values } => {
             write_choice(py, name, |each| values.each(each)).map(Bound::into_any)
         }

@@ -37,6 +37,48 @@ pub fn covariance<'py, T: Number>(
     shaped(py, dense, &[n, n])
 }
 
+/// U (n, n) and D (n,).
+pub fn factor<'py, T: Number>(
+    py: Python<'py>,
+    estimator: &AnyEstimator<T>,
+) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
+    let factor = estimator.factor();
+    let n = factor.parameters();
+    let mut dense = vec![T::ZERO; n * n];
+    for j in 0..n {
+        dense[j * n + j] = T::ONE;
+        for i in 0..j {
+            dense[i * n + j] = factor.packed_columns()[j * (j - 1) / 2 + i];
+        }
+    }
+    let diagonal = factor.diagonal_elements().to_vec();
+    Ok((shaped(py, dense, &[n, n])?, shaped(py, diagonal, &[n])?))
+}
+
+/// What the monitor has seen; the names are those of the crate's `Health`.
+pub fn watched<'py, T: Number>(
+    py: Python<'py>,
+    estimator: &AnyEstimator<T>,
+) -> PyResult<Option<Bound<'py, PyDict>>> {
+    let Some(health) = estimator.health() else { return Ok(None) };
+    let watched = PyDict::new(py);
+    let n = health.direction.len();
+    watched.set_item("windup", health.windup)?;
+    watched.set_item("informed", health.informed)?;
+    watched.set_item("direction", shaped(py, health.direction.to_vec(), &[n])?)?;
+    watched.set_item("variance", health.variance.to_f64())?;
+    watched.set_item("growth", health.growth.to_f64())?;
+    watched.set_item("since_informed", health.since_informed)?;
+    let silence = health.since_excited.iter().map(|&age| age.to_f64() as i64).collect();
+    watched.set_item("since_excited", shaped::<i64>(py, silence, &[n])?)?;
+    watched.set_item("samples", health.samples)?;
+    watched.set_item("block", health.block.to_f64())?;
+    watched.set_item("noise_variance", health.noise_variance.to_f64())?;
+    watched.set_item("correlation", health.correlation.to_f64())?;
+    watched.set_item("weight", health.weight.to_f64())?;
+    Ok(Some(watched))
+}
+
 /// Rule, rate and weighting by name, each with its parameters.
 pub fn describe<'py, T: Number>(
     py: Python<'py>,

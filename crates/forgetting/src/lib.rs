@@ -23,10 +23,14 @@ pub mod criterion;
 mod directions;
 mod error;
 mod estimator;
+mod evidence;
+#[cfg(feature = "alloc")]
+mod excitation;
 pub mod factor;
 mod intake;
 mod measure;
 mod memory;
+pub mod monitor;
 pub mod parameter;
 mod prior;
 pub mod rates;
@@ -36,29 +40,31 @@ pub mod rules;
 mod sample;
 #[cfg(feature = "alloc")]
 pub mod saved;
+pub mod spectrum;
 pub mod state;
 #[cfg(test)]
 mod testing;
+pub mod vector;
 pub mod weighting;
 mod work;
 
 pub use blocks::Blocks;
 pub use error::Error;
 pub use estimator::{Estimator, Update};
+pub use evidence::{Evidence, Needs};
+#[cfg(feature = "alloc")]
+pub use excitation::Excitation;
 pub use factor::Factor;
 pub use intake::Noise;
 #[cfg(feature = "alloc")]
 pub use memory::Dynamic;
 pub use memory::{Buffer, Fixed, Grid, Memory, Packed, Size};
+pub use monitor::Health;
 pub use prior::Prior;
 pub use rates::{Constant, Rate};
-pub use real::Real;
+pub use real::{Kernel, Real};
 pub use root::Root;
-pub use rules::{
-    Component, CovarianceResetting, CyclicResetting, DataDependent, Directional, Exponential,
-    ExponentialResetting, Forgetting, NoForgetting, ObliqueProjection, RandomWalk, Restricted,
-    Skip, Subspace,
-};
+pub use rules::{Exponential, ExponentialResetting, Forgetting, NoForgetting, Skip, Subspace};
 pub use sample::Sample;
 pub use weighting::{Equal, Weighting};
 pub use work::Work;

@@ -37,6 +37,11 @@ impl Range {
         Self { low, high, low_included: false, high_included: false, words }
     }
 
+    /// [low, high], printed as `words`.
+    pub const fn closed(low: f64, high: f64, words: &'static str) -> Self {
+        Self { low, high, low_included: true, high_included: true, words }
+    }
+
     /// Whether the range has `x`; never for NaN.
     pub fn contains(&self, x: f64) -> bool {
         let above = x > self.low || (self.low_included && x == self.low);
@@ -104,6 +109,8 @@ pub enum Value<'a> {
         /// the values of its parameters
         values: &'a dyn Values,
     },
+    /// a function of the user's, as the type that the parameter is described by
+    Function(&'a (dyn core::any::Any + Send + Sync)),
 }
 
 impl core::fmt::Debug for Value<'_> {
@@ -113,6 +120,7 @@ impl core::fmt::Debug for Value<'_> {
             Self::Word(word) => write!(f, "{word}"),
             Self::Matrix { rows, columns, .. } => write!(f, "{rows} x {columns} numbers"),
             Self::Choice { name, .. } => write!(f, "{name}(...)"),
+            Self::Function(_) => write!(f, "a function"),
         }
     }
 }

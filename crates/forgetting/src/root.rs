@@ -104,6 +104,11 @@ impl<M: Memory> Root<M> {
         self.rows.as_ref()[..self.rank * n].chunks_exact(n)
     }
 
+    /// n
+    pub fn parameters(&self) -> usize {
+        self.memory.parameters()
+    }
+
     /// The row r_i, i < rank.
     #[inline(always)]
     pub fn row(&self, i: usize) -> &[M::Real] {

@@ -190,7 +190,11 @@ impl<'a, M: Memory> Sample<'a, M> {
 ///
 /// # Errors
 /// [`Error::Indefinite`] names `parameter`.
-pub fn cholesky<T: Real>(a: &mut [T], p: usize, parameter: &'static str) -> Result<(), Error> {
+pub(crate) fn cholesky<T: Real>(
+    a: &mut [T],
+    p: usize,
+    parameter: &'static str,
+) -> Result<(), Error> {
     for j in 0..p {
         let (done, _) = a[j * p..].split_at(j);
         let pivot = a[j * p + j] - dot(done, done);

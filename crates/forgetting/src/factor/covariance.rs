@@ -17,6 +17,17 @@ impl<M: Memory> Factor<M> {
         Ok(())
     }
 
+    /// P ← P·`trace`/tr(P), for a trace below [`Real::CEILING`]. O(n²).
+    ///
+    /// Elements of D that would fall below [`Real::FLOOR`] stay there.
+    pub fn hold_trace(&mut self, trace: M::Real) {
+        let before = self.trace();
+        for d in self.diagonal.as_mut() {
+            *d = (*d / before * trace).max(M::Real::FLOOR);
+        }
+        self.tighten();
+    }
+
     /// P ← P + c·x·xᵀ with c ≥ 0 for n numbers `x`, which it uses up. O(n²).
     ///
     /// Call [`Factor::reserve`] first, for all that one sample adds.

@@ -71,4 +71,25 @@ impl<M: Memory> Factor<M> {
         }
         kernel::multiply(self.columns.as_ref(), x);
     }
+
+    /// P⁻¹ as n x n numbers, written to `dense`; uses `work`, of as many. O(n³/2).
+    pub fn reconstruct_information(&self, dense: &mut [M::Real], work: &mut [M::Real]) {
+        let n = self.parameters();
+        for (i, row) in work.chunks_exact_mut(n).enumerate() {
+            row.fill(M::Real::ZERO);
+            row[i] = M::Real::ONE;
+            self.solve(row);
+            for (x, &d) in row.iter_mut().zip(self.diagonal.as_ref()) {
+                *x /= d.sqrt();
+            }
+        }
+        for i in 0..n {
+            for j in 0..=i {
+                let (a, b) = (&work[i * n..(i + 1) * n], &work[j * n..(j + 1) * n]);
+                let element = kernel::dot(a, b);
+                dense[i * n + j] = element;
+                dense[j * n + i] = element;
+            }
+        }
+    }
 }

@@ -4,6 +4,7 @@
 //! transforms it by congruence or replaces it, and keeps every element of D at or above
 //! [`Real::FLOOR`]: P stays positive definite whatever is asked of it.
 
+mod blocks;
 mod covariance;
 pub(crate) mod dense;
 mod information;

@@ -148,6 +148,10 @@ impl<M: Memory, F: Forgetting<M>> Forgetting<M> for CovarianceResetting<M, F> {
         Resetting { rule: self.rule.start(memory), watch: Watch::new(memory) }
     }
 
+    fn is_bounded(&self) -> bool {
+        self.rule.is_bounded()
+    }
+
     #[inline(always)]
     fn forget(&self, state: &mut Self::State, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         let Step { factor, sample, forgetting_factor, work } = step;

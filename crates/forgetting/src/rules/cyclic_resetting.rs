@@ -94,6 +94,10 @@ impl<M: Memory> Forgetting<M> for CyclicResetting<M> {
         Cycle { position: 0 }
     }
 
+    fn is_bounded(&self) -> bool {
+        self.information.rank() == self.information.parameters()
+    }
+
     #[inline(always)]
     fn forget(&self, cycle: &mut Cycle, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         let (lambda, n) = (step.forgetting_factor, step.factor.parameters());

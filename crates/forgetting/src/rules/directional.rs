@@ -77,6 +77,10 @@ impl<M: Memory> Forgetting<M> for Directional<M> {
 
     fn start(&self, _: M) {}
 
+    fn is_bounded(&self) -> bool {
+        self.threshold > M::Real::ZERO
+    }
+
     #[inline(always)]
     fn forget(&self, (): &mut (), mut step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         if !(step.sample.squared_regressors().sqrt() > self.threshold) {

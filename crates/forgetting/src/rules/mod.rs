@@ -117,6 +117,11 @@ pub trait Forgetting<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
     /// The state before the first sample.
     fn start(&self, memory: M) -> Self::State;
 
+    /// Whether P̄ stays bounded whatever the input (A2), so that it cannot wind up.
+    fn is_bounded(&self) -> bool {
+        false
+    }
+
     /// Forgets. Changes P, may rotate, scale or drop rows of the sample.
     ///
     /// # Errors
@@ -200,6 +205,12 @@ macro_rules! choice_of_rules {
                 }
             }
 
+            fn is_bounded(&self) -> bool {
+                match self {
+                    $(Self::$Variant(rule) => rule.is_bounded(),)*
+                }
+            }
+
             #[inline(always)]
             fn forget(
                 &self,
@@ -257,4 +268,9 @@ registry! {
     data_dependent::DataDependent,
     component::Component,
     random_walk::RandomWalk,
+    variable_direction::VariableDirection,
+    matrix_forgetting::MatrixForgetting,
+    efra::Efra,
+    constant_trace::ConstantTrace,
+    multiple::Multiple,
 }

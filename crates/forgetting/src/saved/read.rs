@@ -112,6 +112,7 @@ pub fn header<T: Real>(reader: &mut Reader<'_>) -> Result<AnyEstimator<T>, Error
     }
     let memory = Dynamic::new(reader.size()?, reader.size()?, reader.size()?)?;
     let form = reader.byte()?;
+    let watched = reader.byte()? == 1;
     let (name, parameters) = reader.choice(0)?;
     let rule = Rule::named(&name, &parameters, memory)?;
     let (name, parameters) = reader.choice(0)?;
@@ -127,7 +128,11 @@ pub fn header<T: Real>(reader: &mut Reader<'_>) -> Result<AnyEstimator<T>, Error
     if !prior.is_sound() {
         return Err(Error::State { reason: "its numbers are not those of a prior" });
     }
-    Ok(Estimator::new(rule, rate, weighting, prior))
+    let mut estimator = Estimator::new(rule, rate, weighting, prior);
+    if watched {
+        estimator.watch();
+    }
+    Ok(estimator)
 }
 
 impl<T: Real> Visitor<T> for Reader<'_> {
