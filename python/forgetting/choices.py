@@ -58,11 +58,11 @@ class Rule(Choice):
 
     def _take(self, values: dict[str, Any]) -> None:
         self.forgetting_factor = values.pop("forgetting_factor", None)
-        if "forgetting_factors" in values and not isinstance(
+        if "factors" in values and not isinstance(
             self.forgetting_factor, int | float | Rate | None
         ):
             # a list in the place of the common factor: one for each block
-            values["forgetting_factors"], self.forgetting_factor = self.forgetting_factor, None
+            values["factors"], self.forgetting_factor = self.forgetting_factor, None
         for entry in self.about["parameters"]:
             if entry["kind"] == "rule":
                 inner = values[entry["name"]]
