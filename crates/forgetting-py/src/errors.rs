@@ -1,5 +1,6 @@
 //! Errors of the crate as Python exceptions.
 
+use crate::callable::raised;
 use forgetting::Error;
 use pyo3::exceptions::{PyArithmeticError, PyValueError};
 use pyo3::{create_exception, PyErr};
@@ -31,6 +32,7 @@ pub fn raise_at(error: Error, sample: Option<usize>) -> PyErr {
         None => error.to_string(),
     };
     match error {
+        Error::Function { .. } => raised().unwrap_or_else(|| InvalidInput::new_err(text)),
         Error::Range { .. } => NumericalRange::new_err(text),
         _ => InvalidInput::new_err(text),
     }

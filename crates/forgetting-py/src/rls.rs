@@ -184,7 +184,15 @@ impl Rls {
     /// The forgetting rule, as an object that would make the same one.
     #[getter]
     fn rule<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        py.import("forgetting.choices")?.call_method1("from_description", (self.describe(py)?,))
+        py.import("forgetting.choices")?
+            .call_method1("rule_from_description", (self.describe(py)?, self.dtype()))
+    }
+
+    /// The weighting, as an object that would make the same one.
+    #[getter]
+    fn weighting<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        py.import("forgetting.choices")?
+            .call_method1("weighting_from_description", (self.describe(py)?, self.dtype()))
     }
 
     /// phi @ theta.
