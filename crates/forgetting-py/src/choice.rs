@@ -3,16 +3,20 @@
 
 use crate::arrays::with_slice;
 use crate::errors::{invalid, raise};
+use crate::function::Callable;
+use forgetting::function::Function;
 use forgetting::parameter::{Parameter, Value, Values};
 use forgetting::Error;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat, PyInt, PyString};
+use std::sync::Arc;
 
 /// A parameter's value, taken from Python.
 pub enum Given {
     Real(f64),
     Word(String),
     Matrix { rows: usize, columns: usize, elements: Box<dyn Fn(usize) -> f64 + Send + Sync> },
+    Function(Arc<dyn Function>),
 }
 
 /// A name and its parameters.
@@ -86,6 +90,7 @@ impl Values for Choice {
             Given::Matrix { rows, columns, elements } => {
                 Value::Matrix { rows: *rows, columns: *columns, elements }
             }
+            Given::Function(function) => Value::Function(function),
         })
     }
 }
@@ -93,6 +98,9 @@ impl Values for Choice {
 fn read_value(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Given> {
     if let Ok(word) = value.cast::<PyString>() {
         return Ok(Given::Word(word.to_string()));
+    }
+    if value.is_callable() {
+        return Ok(Given::Function(Arc::new(Callable::new(name, value))));
     }
     if value.is_instance_of::<PyFloat>() || value.is_instance_of::<PyInt>() {
         return value.extract().map(Given::Real);
@@ -130,6 +138,10 @@ pub fn write_value<'py>(py: Python<'py>, value: Value<'_>) -> PyResult<Bound<'py
             let elements: Vec<f64> = (0..rows * columns).map(elements).collect();
             let shape: &[usize] = if rows == 1 { &[columns] } else { &[rows, columns] };
             crate::arrays::shaped(py, elements, shape)
+        }
+        Value::Function(function) => {
+            let callable = function.as_any().downcast_ref::<Callable>();
+            Ok(callable.map_or_else(|| py.None().into_bound(py), |callable| callable.object(py)))
         }
     }
 }

@@ -5,6 +5,7 @@ mod arrays;
 mod choice;
 mod configure;
 mod errors;
+mod function;
 mod outputs;
 mod record;
 mod registry;

@@ -58,6 +58,11 @@ pub enum Error {
         /// what does not go together, and what does
         reason: &'static str,
     },
+    /// A function of the user's that failed.
+    Function {
+        /// name of the parameter that is the function
+        parameter: &'static str,
+    },
     /// A saved state that cannot be read.
     State {
         /// what is wrong with it
@@ -107,6 +112,7 @@ impl fmt::Display for Error {
                 write!(f, "{parameter} = {value:e} exceeds the numerical range, limit {limit:e}")
             }
             Self::Unsupported { reason } => f.write_str(reason),
+            Self::Function { parameter } => write!(f, "{parameter} failed"),
             Self::State { reason } => write!(f, "state: {reason}"),
         }
     }

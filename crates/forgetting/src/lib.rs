@@ -20,6 +20,8 @@ mod directions;
 mod error;
 mod estimator;
 pub mod factor;
+#[cfg(feature = "alloc")]
+pub mod function;
 mod intake;
 mod measure;
 mod memory;

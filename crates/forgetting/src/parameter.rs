@@ -1,7 +1,11 @@
 //! The parameters of rules, rates and weightings: their names, ranges and defaults as data, so
 //! that every face (Rust, Python, command line, documentation) reads the same table.
 
+#[cfg(feature = "alloc")]
+use crate::function::Function;
 use crate::{Error, Real};
+#[cfg(feature = "alloc")]
+use alloc::sync::Arc;
 
 /// The values that a parameter may take.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,6 +102,9 @@ pub enum Value<'a> {
         /// the number at a position, row by row
         elements: &'a dyn Fn(usize) -> f64,
     },
+    /// a function of the user's
+    #[cfg(feature = "alloc")]
+    Function(&'a Arc<dyn Function>),
 }
 
 impl core::fmt::Debug for Value<'_> {
@@ -106,6 +113,8 @@ impl core::fmt::Debug for Value<'_> {
             Self::Real(x) => write!(f, "{x}"),
             Self::Word(word) => write!(f, "{word}"),
             Self::Matrix { rows, columns, .. } => write!(f, "{rows} x {columns} numbers"),
+            #[cfg(feature = "alloc")]
+            Self::Function(function) => write!(f, "{function:?}"),
         }
     }
 }

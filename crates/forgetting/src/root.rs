@@ -42,7 +42,7 @@ impl<M: Memory> Root<M> {
                 Error::check_length(parameter.name, rows * columns, n * n)?;
                 Self::dense(parameter.name, elements, memory)
             }
-            Value::Word(_) => Err(Error::value(parameter.name, f64::NAN, "numbers")),
+            _ => Err(Error::value(parameter.name, f64::NAN, "numbers")),
         }
     }
 

@@ -38,7 +38,7 @@ impl<T: Real> AnyEstimator<T> {
     /// # Errors
     /// [`Error::Unsupported`] when a part of it is a function of the user's.
     pub fn to_bytes(&self) -> Result<Vec<u8>, Error> {
-        let mut bytes = write::header(self);
+        let mut bytes = write::header(self)?;
         let mut copy = self.clone();
         let mut prior = self.prior().clone();
         let mut numbers = write::Numbers(&mut bytes);

@@ -197,4 +197,5 @@ registry! {
     efra::Efra,
     constant_trace::ConstantTrace,
     multiple::Multiple,
+    custom::Custom,
 }

@@ -1,10 +1,10 @@
 //! Writing a state.
 
-use super::{AnyEstimator, Forgetting, Memory, Rate, Real, Value, Vec, Visitor, Weighting};
+use super::{AnyEstimator, Error, Forgetting, Memory, Rate, Real, Value, Vec, Visitor, Weighting};
 use super::{MARK, VERSION};
 
 /// Everything before the numbers.
-pub fn header<T: Real>(estimator: &AnyEstimator<T>) -> Vec<u8> {
+pub fn header<T: Real>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
     let memory = estimator.prior().memory();
     let mut bytes = Vec::from(MARK.as_slice());
     bytes.extend_from_slice(&[VERSION, T::BYTES as u8]);
@@ -12,12 +12,12 @@ pub fn header<T: Real>(estimator: &AnyEstimator<T>) -> Vec<u8> {
         bytes.extend_from_slice(&(size as u32).to_le_bytes());
     }
     bytes.push(estimator.prior().form());
-    choice(&mut bytes, estimator.rule().about().name, |each| estimator.rule().describe(each));
-    choice(&mut bytes, estimator.rate().about().name, |each| estimator.rate().describe(each));
+    choice(&mut bytes, estimator.rule().about().name, |each| estimator.rule().describe(each))?;
+    choice(&mut bytes, estimator.rate().about().name, |each| estimator.rate().describe(each))?;
     choice(&mut bytes, estimator.weighting().about().name, |each| {
         estimator.weighting().describe(each);
-    });
-    bytes
+    })?;
+    Ok(bytes)
 }
 
 /// A name, then its parameters: their number, and each one's name and value.
@@ -25,17 +25,18 @@ fn choice(
     bytes: &mut Vec<u8>,
     name: &str,
     describe: impl Fn(&mut dyn FnMut(&'static str, Value<'_>)),
-) {
+) -> Result<(), Error> {
     word(bytes, name);
-    let mut count = 0u8;
+    let (mut count, mut outcome) = (0u8, Ok(()));
     let position = bytes.len();
     bytes.push(count);
     describe(&mut |name, given| {
         count += 1;
         word(bytes, name);
-        value(bytes, given);
+        outcome = outcome.and(value(bytes, given));
     });
     bytes[position] = count;
+    outcome
 }
 
 fn word(bytes: &mut Vec<u8>, word: &str) {
@@ -43,7 +44,8 @@ fn word(bytes: &mut Vec<u8>, word: &str) {
     bytes.extend_from_slice(word.as_bytes());
 }
 
-fn value(bytes: &mut Vec<u8>, value: Value<'_>) {
+/// Refuses a function: it is not a number.
+fn value(bytes: &mut Vec<u8>, value: Value<'_>) -> Result<(), Error> {
     match value {
         Value::Real(x) => {
             bytes.push(0);
@@ -62,7 +64,13 @@ fn value(bytes: &mut Vec<u8>, value: Value<'_>) {
                 bytes.extend_from_slice(&elements(k).to_le_bytes());
             }
         }
+        Value::Function(_) => {
+            let reason = "an estimator with a function of yours in it cannot be saved: save the \
+                          function's source and the estimator's theta and covariance instead";
+            return Err(Error::Unsupported { reason });
+        }
     }
+    Ok(())
 }
 
 /// Appends the numbers of a state. `f32` numbers go through `f64` exactly.
