@@ -24,6 +24,8 @@ from ._core import (
     weightings,
 )
 from .choices import Rate, Rule, Weighting, rule
+from .health import Health
+from .meter import ExcitationMeter
 from .models import ARX
 
 globals().update(choices.CLASSES)
@@ -32,6 +34,8 @@ __all__ = [
     "ARX",
     "RLS",
     "SKIPPED",
+    "ExcitationMeter",
+    "Health",
     "InvalidInput",
     "NumericalRange",
     "Rate",

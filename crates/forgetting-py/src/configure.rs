@@ -8,12 +8,25 @@ use forgetting::rates::{AnyRate, RATES};
 use forgetting::rules::{Rule, RULES};
 use forgetting::saved::AnyEstimator;
 use forgetting::weighting::{AnyWeighting, WEIGHTINGS};
-use forgetting::{Dynamic, Estimator, Memory, Prior};
+use forgetting::{Dynamic, Error, Estimator, Memory, Prior};
 use pyo3::prelude::*;
+
+/// Sizes as Python gives them: whole numbers of either sign, the range of which the core checks.
+///
+/// # Errors
+/// `InvalidInput` names a negative one.
+pub fn read_sizes(sizes: [(&'static str, i64); 3]) -> PyResult<[usize; 3]> {
+    let mut read = [0; 3];
+    for (read, (name, size)) in read.iter_mut().zip(sizes) {
+        *read = usize::try_from(size)
+            .map_err(|_| raise(Error::value(name, size as f64, "whole numbers from 1 to 32768")))?;
+    }
+    Ok(read)
+}
 
 /// Makes an estimator from Python's arguments.
 pub fn make<T: Number>(
-    (parameters, rows, targets): (usize, usize, usize),
+    [parameters, rows, targets]: [usize; 3],
     rule: Option<Array<'_, '_>>,
     weighting: Option<Array<'_, '_>>,
     (covariance, theta): (Option<Array<'_, '_>>, Option<Array<'_, '_>>),
@@ -51,16 +64,12 @@ fn read_rule<T: Number>(
     let rule = choice.make("rule", about.map(|about| about.parameters), |name, values| {
         Rule::named(name, values, memory)
     })?;
-    if let Some(limit) = about.and_then(|about| about.largest_rows) {
-        if memory.rows() > limit {
-            let rows = memory.rows();
-            return Err(invalid(format!("rows = {rows}, allowed with {}: {limit}", choice.name)));
-        }
-    }
     let factor = object.and_then(|object| object.getattr_opt("forgetting_factor").ok().flatten());
     let rate = match factor {
+        // a rule without a forgetting factor reports that it forgets nothing by it
+        None if about.is_some_and(|about| !about.forgetting_factor) => constant(1.0),
+        Some(factor) if factor.is_none() => constant(1.0),
         None => constant(0.99),
-        Some(factor) if factor.is_none() => constant(0.99),
         Some(factor) => match factor.extract::<f64>() {
             Ok(number) => constant(number),
             Err(_) => Choice::read("forgetting_factor", &factor)?,

@@ -3,7 +3,7 @@
 use crate::arrays::{contiguous, shaped};
 use crate::choice::shape_of;
 use crate::errors::{invalid, keep_exception};
-use forgetting::function::{Argument, Function};
+use forgetting::function::{Argument, MatrixFunction};
 use forgetting::Error;
 use numpy::{PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
@@ -55,7 +55,7 @@ impl Callable {
     }
 }
 
-impl Function for Callable {
+impl MatrixFunction for Callable {
     fn call(
         &self,
         arguments: &[Argument<'_>],

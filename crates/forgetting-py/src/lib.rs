@@ -13,6 +13,7 @@ mod results;
 mod rls;
 mod sample;
 mod update;
+mod window;
 
 use pyo3::prelude::*;
 
@@ -20,6 +21,7 @@ use pyo3::prelude::*;
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<rls::Rls>()?;
     module.add_class::<update::Update>()?;
+    module.add_class::<window::InformationWindow>()?;
     module.add_class::<outputs::Run>()?;
     module.add("InvalidInput", module.py().get_type::<errors::InvalidInput>())?;
     module.add("NumericalRange", module.py().get_type::<errors::NumericalRange>())?;

@@ -1,9 +1,8 @@
 //! What an estimator holds, for Python.
 
 use crate::arrays::{shaped, with_slice, Array, Number};
-use crate::choice::{shape_of, write_value};
+use crate::choice::{shape_of, write_choice};
 use crate::errors::{invalid, raise};
-use forgetting::parameter::Value;
 use forgetting::rates::Rate;
 use forgetting::rules::Forgetting;
 use forgetting::saved::AnyEstimator;
@@ -38,6 +37,48 @@ pub fn covariance<'py, T: Number>(
     shaped(py, dense, &[n, n])
 }
 
+/// U (n, n) and D (n,).
+pub fn factor<'py, T: Number>(
+    py: Python<'py>,
+    estimator: &AnyEstimator<T>,
+) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
+    let factor = estimator.factor();
+    let n = factor.parameters();
+    let mut dense = vec![T::ZERO; n * n];
+    for j in 0..n {
+        dense[j * n + j] = T::ONE;
+        for i in 0..j {
+            dense[i * n + j] = factor.packed_columns()[j * (j - 1) / 2 + i];
+        }
+    }
+    let diagonal = factor.diagonal_elements().to_vec();
+    Ok((shaped(py, dense, &[n, n])?, shaped(py, diagonal, &[n])?))
+}
+
+/// What the monitor has seen; the names are those of the crate's `Health`.
+pub fn watched<'py, T: Number>(
+    py: Python<'py>,
+    estimator: &AnyEstimator<T>,
+) -> PyResult<Option<Bound<'py, PyDict>>> {
+    let Some(health) = estimator.health() else { return Ok(None) };
+    let watched = PyDict::new(py);
+    let n = health.direction.len();
+    watched.set_item("windup", health.windup)?;
+    watched.set_item("informed", health.informed)?;
+    watched.set_item("direction", shaped(py, health.direction.to_vec(), &[n])?)?;
+    watched.set_item("variance", health.variance.to_f64())?;
+    watched.set_item("growth", health.growth.to_f64())?;
+    watched.set_item("since_informed", health.since_informed)?;
+    let silence = health.since_excited.iter().map(|&age| age.to_f64() as i64).collect();
+    watched.set_item("since_excited", shaped::<i64>(py, silence, &[n])?)?;
+    watched.set_item("samples", health.samples)?;
+    watched.set_item("block", health.block.to_f64())?;
+    watched.set_item("noise_variance", health.noise_variance.to_f64())?;
+    watched.set_item("correlation", health.correlation.to_f64())?;
+    watched.set_item("weight", health.weight.to_f64())?;
+    Ok(Some(watched))
+}
+
 /// Rule, rate and weighting by name, each with its parameters.
 pub fn describe<'py, T: Number>(
     py: Python<'py>,
@@ -45,10 +86,18 @@ pub fn describe<'py, T: Number>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let description = PyDict::new(py);
     let (rule, rate, weighting) = (estimator.rule(), estimator.rate(), estimator.weighting());
-    description.set_item("rule", part(py, rule.about().name, &|each| rule.describe(each))?)?;
-    description.set_item("rate", part(py, rate.about().name, &|each| rate.describe(each))?)?;
-    let weighting = part(py, weighting.about().name, &|each| weighting.describe(each))?;
-    description.set_item("weighting", weighting)?;
+    let of_rule = write_choice(py, rule.about().name, |each| {
+        rule.describe(&mut |name, value| each(name, value))
+    })?;
+    description.set_item("rule", of_rule)?;
+    let of_rate = write_choice(py, rate.about().name, |each| {
+        rate.describe(&mut |name, value| each(name, value))
+    })?;
+    description.set_item("rate", of_rate)?;
+    let of_weighting = write_choice(py, weighting.about().name, |each| {
+        weighting.describe(&mut |name, value| each(name, value))
+    })?;
+    description.set_item("weighting", of_weighting)?;
     Ok(description)
 }
 
@@ -76,21 +125,4 @@ pub fn predict<'py, T: Number>(
             _ => shaped(py, prediction, &shape),
         }
     })
-}
-
-type Describe<'a> = &'a dyn Fn(&mut dyn FnMut(&'static str, Value<'_>));
-
-fn part<'py>(py: Python<'py>, name: &str, describe: Describe<'_>) -> PyResult<Bound<'py, PyDict>> {
-    let (part, parameters) = (PyDict::new(py), PyDict::new(py));
-    let mut outcome = Ok(());
-    describe(&mut |name, value| {
-        let written = write_value(py, value).and_then(|value| parameters.set_item(name, value));
-        if written.is_err() {
-            outcome = written;
-        }
-    });
-    outcome?;
-    part.set_item("name", name)?;
-    part.set_item("parameters", parameters)?;
-    Ok(part)
 }

@@ -1,7 +1,7 @@
 //! The class `RLS`.
 
 use crate::arrays::Number;
-use crate::configure::make;
+use crate::configure::{make, read_sizes};
 use crate::errors::{invalid, raise};
 use crate::outputs::{Run, DEFAULT_OUTPUTS};
 use crate::update::Update;
@@ -48,6 +48,8 @@ macro_rules! either {
 ///     Estimate before the first sample; 0 if not given.
 /// dtype : {"float64", "float32"}
 ///     Type of all numbers.
+/// monitor : bool, default False
+///     Watch for windup, excitation, noise and whiteness, see `health`; costs O(n) a sample.
 ///
 /// Raises
 /// ------
@@ -71,21 +73,23 @@ pub struct Rls {
 impl Rls {
     #[new]
     #[pyo3(signature = (parameters, *, rule=None, weighting=None, rows=1, targets=1,
-        initial_covariance=None, initial_theta=None, dtype="float64"))]
+        initial_covariance=None, initial_theta=None, dtype="float64", monitor=false))]
     #[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn new(
-        parameters: usize,
+        parameters: i64,
         rule: Option<&Bound<'_, PyAny>>,
         weighting: Option<&Bound<'_, PyAny>>,
-        rows: usize,
-        targets: usize,
+        rows: i64,
+        targets: i64,
         initial_covariance: Option<&Bound<'_, PyAny>>,
         initial_theta: Option<&Bound<'_, PyAny>>,
         dtype: &str,
+        monitor: bool,
     ) -> PyResult<Self> {
-        let sizes = (parameters, rows, targets);
+        let sizes = [("parameters", parameters), ("rows", rows), ("targets", targets)];
+        let sizes = read_sizes(sizes)?;
         let initial = (initial_covariance, initial_theta);
-        let inner = match dtype {
+        let mut inner = match dtype {
             "float64" => Inner::Double(Box::new(make(sizes, rule, weighting, initial)?)),
             "float32" => Inner::Single(Box::new(make(sizes, rule, weighting, initial)?)),
             _ => {
@@ -94,6 +98,9 @@ impl Rls {
                 )))
             }
         };
+        if monitor {
+            either!(&mut inner, e => e.watch());
+        }
         Ok(Self { inner })
     }
 
@@ -141,6 +148,32 @@ impl Rls {
     #[getter]
     fn covariance<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         either!(&self.inner, e => results::covariance(py, e))
+    }
+
+    /// The factor of the covariance: U (n, n) unit upper triangular and D (n,) positive, with
+    /// P = U @ diag(D) @ U.T.
+    fn factor<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
+        either!(&self.inner, e => results::factor(py, e))
+    }
+
+    /// How far the estimate can be trusted now.
+    ///
+    /// Parameters
+    /// ----------
+    /// exact : bool, default False
+    ///     Eigenvalues of P themselves, in O(n**3); else bounds from its factor, in O(n).
+    ///
+    /// Returns
+    /// -------
+    /// Health
+    #[pyo3(signature = (exact=false))]
+    fn health<'py>(slf: &Bound<'py, Self>, exact: bool) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("forgetting.health")?.call_method1("health_of", (slf, exact))
+    }
+
+    /// What the monitor has seen, as a dictionary; None without one.
+    fn watched<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        either!(&self.inner, e => results::watched(py, e))
     }
 
     /// The rule, rate and weighting by name, each with its parameters.

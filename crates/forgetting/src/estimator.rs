@@ -6,9 +6,11 @@
 //! correct   θ₊ = θ + R₊⁻¹ φᵀ Γ⁻¹ (y − φ θ)     θ changes here and nowhere else
 //! ```
 
+use crate::evidence::Known;
 use crate::factor::kernel::dot;
-use crate::intake::{whiten, Intake, Known, Noise};
+use crate::intake::{whiten, Intake, Noise};
 use crate::measure::{leverage, measure};
+use crate::monitor::{Health, Monitor, Seen};
 use crate::rates::Rate;
 use crate::rules::{Forgetting, Forgotten, Skip, Step};
 use crate::state::{State, Visitor};
@@ -28,6 +30,7 @@ pub struct Update<'a, T> {
     pub rank: usize,
     /// why the sample was left out, if it was
     pub skipped: Option<Skip>,
+    /// whether P has wound up: as the watch says ([`Health::windup`]) if there is one, else
     /// whether P has grown beyond [`Estimator::WINDUP`] times its first value
     pub windup: bool,
 }
@@ -70,6 +73,7 @@ where
     rate_state: R::State,
     samples: u64,
     windup_limit: M::Real,
+    monitor: Option<Monitor<M>>,
     intake: Intake<M>,
     work: Work<M>,
 }
@@ -93,6 +97,7 @@ where
             rule_state: rule.start(memory),
             rate_state: rate.start(memory),
             windup_limit: M::Real::from_f64(Self::WINDUP) * factor.largest(),
+            monitor: None,
             intake: Intake::new(memory),
             work: Work::new(memory),
             samples: 0,
@@ -112,6 +117,19 @@ where
         self.rule_state = self.rule.start(memory);
         self.rate_state = self.rate.start(memory);
         self.samples = 0;
+        if self.monitor.is_some() {
+            self.monitor = Some(Monitor::new(&self.factor, self.rule.is_bounded()));
+        }
+    }
+
+    /// Watches from now on: [`Estimator::health`] tells what it sees. O(n) a sample.
+    pub fn watch(&mut self) {
+        self.monitor = Some(Monitor::new(&self.factor, self.rule.is_bounded()));
+    }
+
+    /// What the watch has seen, if there is one.
+    pub fn health(&self) -> Option<Health<'_, M::Real>> {
+        self.monitor.as_ref().map(Monitor::health)
     }
 
     /// φθ for p x n numbers `phi`, row by row; writes p x m numbers to `prediction`.
@@ -158,18 +176,14 @@ where
         let intake = &mut self.intake;
         let mut sample = Sample::new(memory, intake.regressors.as_mut(), intake.errors.as_mut());
         whiten(&mut sample, noise, intake.noise.as_mut())?;
-        let mut known = Known::of(&sample)?;
-        if self.rate.needs_leverage() || self.weighting.needs_leverage() {
-            known.leverage = leverage(&self.factor, &sample);
-        }
-        let evidence = known.evidence(&sample, &self.factor, self.samples);
-        let weight = self.weighting.weight(&evidence);
-        if weight != M::Real::ONE {
-            known.weigh(weight)?;
-            sample.scale(weight.sqrt());
-        }
-        let evidence = known.evidence(&sample, &self.factor, self.samples);
-        let lambda = self.rate.forgetting_factor(&self.rate_state, &evidence);
+        let mut known = Known::of(memory, &sample)?;
+        let needs = self.rate.needs().max(self.weighting.needs());
+        let (seen, buffers) =
+            (intake.seen.as_mut(), (intake.remaining.as_mut(), intake.noise.as_mut()));
+        known.find(needs, &self.factor, &sample, &mut self.work, buffers);
+        known.weigh(&self.weighting, &mut sample, seen, &self.factor, self.samples)?;
+        let evidence = known.evidence(&sample, &self.factor, seen, self.samples);
+        let lambda = self.rate.forgetting_factor(&self.rate_state, &evidence)?;
         if !(lambda > M::Real::ZERO && lambda <= M::Real::ONE) {
             return Err(Error::value("forgetting_factor", lambda.to_f64(), "(0, 1]"));
         }
@@ -179,24 +193,33 @@ where
             forgetting_factor: lambda,
             work: &mut self.work,
         };
-        let Forgotten { rank, skipped } = self.rule.forget(&mut self.rule_state, step)?;
+        let Forgotten { rank, skipped, forgetting_factor } =
+            self.rule.forget(&mut self.rule_state, step)?;
         let leverage = if skipped.is_some() {
             leverage(&self.factor, &sample)
         } else {
             let (gain, theta) = (self.work.gain.as_mut(), self.theta.as_mut());
             let leverage = measure(&mut self.factor, &sample, gain, theta, &mut intake.remaining);
-            let evidence = known.evidence(&sample, &self.factor, self.samples);
+            let evidence = known.evidence(&sample, &self.factor, seen, self.samples);
             self.rate.learn(&mut self.rate_state, &evidence, lambda);
             self.samples += 1;
             leverage
         };
+        if let Some(monitor) = &mut self.monitor {
+            let squared_error = known.used_error();
+            let seen = Seen { sample: &sample, squared_error, leverage, forgetting_factor: lambda };
+            monitor.watch(&self.factor, skipped.is_none().then_some(seen));
+        }
         Ok(Update {
             error: self.intake.innovations.as_ref(),
             leverage,
-            forgetting_factor: lambda,
+            forgetting_factor: forgetting_factor.map_or(lambda, M::Real::from_f64),
             rank,
             skipped,
-            windup: self.factor.largest() > self.windup_limit,
+            windup: match &self.monitor {
+                Some(monitor) => monitor.windup(),
+                None => self.factor.largest() > self.windup_limit,
+            },
         })
     }
 
@@ -227,6 +250,11 @@ where
         &self.rate
     }
 
+    /// What the design of the forgetting factor remembers.
+    pub fn rate_state(&self) -> &R::State {
+        &self.rate_state
+    }
+
     /// The weighting of samples.
     pub fn weighting(&self) -> &W {
         &self.weighting
@@ -249,5 +277,8 @@ where
         self.rule_state.visit(visitor);
         self.rate_state.visit(visitor);
         visitor.whole(&mut self.samples);
+        if let Some(monitor) = &mut self.monitor {
+            monitor.visit(visitor);
+        }
     }
 }

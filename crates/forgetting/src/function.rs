@@ -17,8 +17,9 @@ pub struct Argument<'a> {
 
 /// A function from matrices to a matrix, whatever language it is written in.
 ///
-/// As a value of a parameter it makes an estimator that cannot be saved as bytes.
-pub trait Function: Debug + Send + Sync {
+/// A parameter that takes one has the value [`Value::Function`](crate::parameter::Value::Function)
+/// with an `Arc<dyn MatrixFunction>`.
+pub trait MatrixFunction: Debug + Send + Sync {
     /// Evaluates it: calls `put` with the position, row by row, and the value of each of the
     /// rows x columns elements of the result.
     ///

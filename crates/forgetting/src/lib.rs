@@ -15,16 +15,24 @@
 
 #[cfg(feature = "alloc")]
 extern crate alloc;
+#[cfg(test)]
+extern crate std;
 
+mod blocks;
+pub mod criterion;
 mod directions;
 mod error;
 mod estimator;
+mod evidence;
+#[cfg(feature = "alloc")]
+mod excitation;
 pub mod factor;
 #[cfg(feature = "alloc")]
 pub mod function;
 mod intake;
 mod measure;
 mod memory;
+pub mod monitor;
 pub mod parameter;
 mod prior;
 pub mod rates;
@@ -36,21 +44,27 @@ mod sample;
 pub mod saved;
 pub mod spectrum;
 pub mod state;
+#[cfg(test)]
+mod testing;
 pub mod weighting;
 mod work;
 
+pub use blocks::Blocks;
 pub use error::Error;
 pub use estimator::{Estimator, Update};
+pub use evidence::{Evidence, Needs};
+#[cfg(feature = "alloc")]
+pub use excitation::Excitation;
 pub use factor::Factor;
 pub use intake::Noise;
 #[cfg(feature = "alloc")]
 pub use memory::Dynamic;
 pub use memory::{Buffer, Fixed, Grid, Memory, Packed, Size};
+pub use monitor::Health;
 pub use prior::Prior;
 pub use rates::{Constant, Rate};
 pub use real::Real;
 pub use root::Root;
-pub use rules::VariableDirection;
 pub use rules::{Exponential, ExponentialResetting, Forgetting, NoForgetting, Skip, Subspace};
 pub use sample::Sample;
 pub use weighting::{Equal, Weighting};

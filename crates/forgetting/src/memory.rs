@@ -35,6 +35,8 @@ pub trait Memory: Copy + Debug + Send + Sync + 'static {
     type Errors: Buffer<Self::Real>;
     /// m x n numbers, one target after the other
     type Parameters: Buffer<Self::Real>;
+    /// numbers of a count that only the configuration knows, such as a window of past samples
+    type List: Buffer<Self::Real>;
 
     /// n
     fn parameters(&self) -> usize;
@@ -57,6 +59,10 @@ pub trait Memory: Copy + Debug + Send + Sync + 'static {
     fn errors(&self) -> Self::Errors;
     /// m x n zeros
     fn theta(&self) -> Self::Parameters;
+    /// at least `length` zeros, at most [`Memory::longest_list`]
+    fn list(&self, length: usize) -> Self::List;
+    /// the most numbers that a list can hold
+    fn longest_list(&self) -> usize;
 }
 
 /// `B` blocks of `A` numbers on the stack.
@@ -102,17 +108,22 @@ macro_rules! packed {
 packed!(1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31 32);
 
 /// Sizes known to the compiler: `N` parameters (1 to 32), `P` rows, `M` targets; no heap.
+///
+/// `L` is the room for lists: a rate that looks back over a window needs as many numbers.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Fixed<T, const N: usize, const P: usize = 1, const M: usize = 1>(PhantomData<T>);
+pub struct Fixed<T, const N: usize, const P: usize = 1, const M: usize = 1, const L: usize = 0>(
+    PhantomData<T>,
+);
 
-impl<T, const N: usize, const P: usize, const M: usize> Fixed<T, N, P, M> {
+impl<T, const N: usize, const P: usize, const M: usize, const L: usize> Fixed<T, N, P, M, L> {
     /// These sizes.
     pub const fn new() -> Self {
         Self(PhantomData)
     }
 }
 
-impl<T: Real, const N: usize, const P: usize, const M: usize> Memory for Fixed<T, N, P, M>
+impl<T: Real, const N: usize, const P: usize, const M: usize, const L: usize> Memory
+    for Fixed<T, N, P, M, L>
 where
     Size<N>: Packed<T>,
 {
@@ -124,6 +135,7 @@ where
     type Noise = Grid<T, P, P>;
     type Errors = Grid<T, M, P>;
     type Parameters = Grid<T, N, M>;
+    type List = [T; L];
 
     #[inline(always)]
     fn parameters(&self) -> usize {
@@ -158,6 +170,12 @@ where
     fn theta(&self) -> Self::Parameters {
         Grid([[T::ZERO; N]; M])
     }
+    fn list(&self, _: usize) -> [T; L] {
+        [T::ZERO; L]
+    }
+    fn longest_list(&self) -> usize {
+        L
+    }
 }
 
 #[cfg(feature = "alloc")]
@@ -179,6 +197,9 @@ mod dynamic {
     }
 
     impl<T: Real> Dynamic<T> {
+        /// The most numbers that a list can hold.
+        pub const LONGEST_LIST: usize = 1 << 20;
+
         /// `parameters` n, `rows` p and `targets` m, each from 1 to 2¹⁵.
         ///
         /// # Errors
@@ -203,6 +224,7 @@ mod dynamic {
         type Noise = Vec<T>;
         type Errors = Vec<T>;
         type Parameters = Vec<T>;
+        type List = Vec<T>;
 
         #[inline(always)]
         fn parameters(&self) -> usize {
@@ -236,6 +258,12 @@ mod dynamic {
         }
         fn theta(&self) -> Vec<T> {
             vec![T::ZERO; self.targets * self.parameters]
+        }
+        fn list(&self, length: usize) -> Vec<T> {
+            vec![T::ZERO; length.min(Self::LONGEST_LIST)]
+        }
+        fn longest_list(&self) -> usize {
+            Self::LONGEST_LIST
         }
     }
 }

@@ -21,6 +21,11 @@ impl<'a, M: Memory> Sample<'a, M> {
         Self { memory, rows: memory.rows(), regressors, errors }
     }
 
+    /// The sizes it was made for.
+    pub fn memory(&self) -> M {
+        self.memory
+    }
+
     /// Rows still in use.
     #[inline(always)]
     pub fn rows(&self) -> usize {
@@ -57,6 +62,15 @@ impl<'a, M: Memory> Sample<'a, M> {
     #[inline(always)]
     pub fn squared_regressors(&self) -> M::Real {
         dot(self.regressors(), self.regressors())
+    }
+
+    /// The length of the longest row of φ̄: its largest singular value, once the rows are
+    /// orthogonal.
+    #[inline(always)]
+    pub fn longest_row(&self) -> M::Real {
+        let squared = (0..self.rows)
+            .fold(M::Real::ZERO, |longest, i| longest.max(dot(self.row(i), self.row(i))));
+        squared.sqrt()
     }
 
     /// ‖ē‖² over rows and targets.
@@ -148,6 +162,15 @@ impl<'a, M: Memory> Sample<'a, M> {
         true
     }
 
+    /// Sets the rows of φ̄ that are not longer than `least` to zero.
+    pub fn clear_shorter_than(&mut self, least: M::Real) {
+        for row in self.regressors.chunks_exact_mut(self.memory.parameters()) {
+            if !(dot(row, row).sqrt() > least) {
+                row.fill(M::Real::ZERO);
+            }
+        }
+    }
+
     /// Keeps the rows that are at least `threshold` long, in their order; drops the others.
     pub fn keep_longer_than(&mut self, threshold: M::Real) {
         let (n, m) = (self.memory.parameters(), self.memory.targets());
@@ -167,7 +190,11 @@ impl<'a, M: Memory> Sample<'a, M> {
 ///
 /// # Errors
 /// [`Error::Indefinite`] names `parameter`.
-pub fn cholesky<T: Real>(a: &mut [T], p: usize, parameter: &'static str) -> Result<(), Error> {
+pub(crate) fn cholesky<T: Real>(
+    a: &mut [T],
+    p: usize,
+    parameter: &'static str,
+) -> Result<(), Error> {
     for j in 0..p {
         let (done, _) = a[j * p..].split_at(j);
         let pivot = a[j * p + j] - dot(done, done);

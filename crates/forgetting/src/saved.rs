@@ -7,7 +7,8 @@
 //! | number type | one byte, 4 or 8: the bytes of a number |
 //! | sizes | n, p, m as 32-bit numbers |
 //! | form of P₀ | one byte |
-//! | rule, rate, weighting | each a name and its parameters by name |
+//! | watched | one byte, 0 or 1 |
+//! | rule, rate, weighting | each a name and its parameters by name; a rule may be a parameter |
 //! | numbers | the prior, then the state, in the order of `visit` |
 //! | check | CRC-32 of all before it |
 //!
@@ -19,7 +20,7 @@ use crate::rules::{Forgetting, Rule};
 use crate::state::Visitor;
 use crate::weighting::{AnyWeighting, Weighting};
 use crate::{Dynamic, Error, Estimator, Memory, Prior, Real};
-use alloc::{string::String, vec::Vec};
+use alloc::{boxed::Box, string::String, vec::Vec};
 
 mod read;
 mod write;

@@ -3,7 +3,8 @@
 mod dense_forms;
 
 use dense_forms::{estimator, record, result, update, Dense, Input, Published, INPUTS};
-use forgetting::{Dynamic, Real, VariableDirection};
+use forgetting::rules::VariableDirection;
+use forgetting::{Dynamic, Real};
 
 const LAMBDA: f64 = 0.95;
 const VARIANCE: f64 = 10.0;

@@ -21,6 +21,13 @@ impl<M: Memory> Factor<M> {
         Ok(factor)
     }
 
+    /// P ← that of `other`, of the same sizes.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.columns.as_mut().copy_from_slice(other.columns.as_ref());
+        self.diagonal.as_mut().copy_from_slice(other.diagonal.as_ref());
+        self.trace_bound = other.trace_bound;
+    }
+
     /// P ← the n x n matrix `covariance`, of which it reads the upper triangle and which it uses
     /// up. O(n³/6).
     ///

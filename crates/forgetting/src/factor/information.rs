@@ -45,6 +45,24 @@ impl<M: Memory> Factor<M> {
         work.iter().zip(diagonal).fold(M::Real::ZERO, |sum, (&z, &d)| sum + z * z / d)
     }
 
+    /// x ← D^(1/2)·Uᵀ·x: the squared length is then xᵀ·P·x. O(n²/2).
+    #[inline(always)]
+    pub fn apply_root_transposed(&self, x: &mut [M::Real]) {
+        kernel::multiply_transposed(self.columns.as_ref(), x);
+        for (x, &d) in x.iter_mut().zip(self.diagonal.as_ref()) {
+            *x *= d.sqrt();
+        }
+    }
+
+    /// x ← U·D^(1/2)·x, with the root of which P is the square. O(n²/2).
+    #[inline(always)]
+    pub fn apply_root(&self, x: &mut [M::Real]) {
+        for (x, &d) in x.iter_mut().zip(self.diagonal.as_ref()) {
+            *x *= d.sqrt();
+        }
+        kernel::multiply(self.columns.as_ref(), x);
+    }
+
     /// x ← P·x
     pub fn multiply(&self, x: &mut [M::Real]) {
         kernel::multiply_transposed(self.columns.as_ref(), x);

@@ -25,7 +25,9 @@
 use super::{About, Claim, Forgetting, Forgotten, Step};
 use crate::factor::dense::check_symmetric;
 #[cfg(feature = "alloc")]
-use crate::function::{Argument, Function};
+use crate::function::{Argument, MatrixFunction};
+#[cfg(feature = "alloc")]
+use alloc::sync::Arc;
 use crate::parameter::{Kind, Parameter, Range, Value, Values};
 use crate::state::{State, Visitor};
 use crate::{Error, Memory, Real};
@@ -98,7 +100,7 @@ where
 /// A function that was given by name, at run time.
 #[cfg(feature = "alloc")]
 #[derive(Clone, Debug)]
-pub struct Given<T>(alloc::sync::Arc<dyn Function>, PhantomData<T>);
+pub struct Given<T>(Arc<dyn MatrixFunction>, PhantomData<T>);
 
 #[cfg(feature = "alloc")]
 impl<T: Real> ForgettingMatrix<T> for Given<T> {
@@ -123,10 +125,12 @@ impl<T: Real> ForgettingMatrix<T> for Given<T> {
     }
 
     fn given(values: &dyn Values) -> Result<Self, Error> {
-        match FORGETTING_MATRIX.look_up(values)? {
-            Value::Function(function) => Ok(Self(function.clone(), PhantomData)),
-            _ => Err(Error::value(FORGETTING_MATRIX.name, f64::NAN, "a function")),
-        }
+        let function = match FORGETTING_MATRIX.look_up(values)? {
+            Value::Function(function) => function.downcast_ref::<Arc<dyn MatrixFunction>>(),
+            _ => None,
+        };
+        let refusal = Error::value(FORGETTING_MATRIX.name, f64::NAN, "a function");
+        function.map(|function| Self(function.clone(), PhantomData)).ok_or(refusal)
     }
 }
 

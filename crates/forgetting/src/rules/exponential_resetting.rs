@@ -17,7 +17,7 @@
 //! - Use it when what is known without data should come back in silence. `cyclic_resetting`
 //!   does nearly the same in O(n²).
 //!
-//! Reference: A. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
+//! Reference: B. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
 //! stability and robustness guarantees*, IEEE Transactions on Automatic Control, 2024, V-E.
 
 use super::{About, Claim, Forgetting, Forgotten, Step};
@@ -72,6 +72,10 @@ impl<M: Memory> Forgetting<M> for ExponentialResetting<M> {
     }
 
     fn start(&self, _: M) {}
+
+    fn is_bounded(&self) -> bool {
+        self.information.rank() == self.information.parameters()
+    }
 
     #[inline(always)]
     fn forget(&self, (): &mut (), step: Step<'_, '_, M>) -> Result<Forgotten, Error> {

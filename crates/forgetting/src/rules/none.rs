@@ -15,7 +15,7 @@
 //! - Use it for parameters that never change. With parameters that drift, the estimate lags more
 //!   and more.
 //!
-//! Reference: A. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
+//! Reference: B. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
 //! stability and robustness guarantees*, IEEE Transactions on Automatic Control, 2024.
 
 use super::{About, Claim, Forgetting, Forgotten, Step};
@@ -58,6 +58,10 @@ impl<M: Memory> Forgetting<M> for NoForgetting<M> {
     fn describe(&self, _: &mut dyn FnMut(&'static str, Value<'_>)) {}
 
     fn start(&self, _: M) {}
+
+    fn is_bounded(&self) -> bool {
+        true
+    }
 
     #[inline(always)]
     fn forget(&self, (): &mut (), _: Step<'_, '_, M>) -> Result<Forgotten, Error> {

@@ -80,6 +80,10 @@ impl<M: Memory> Forgetting<M> for Subspace<M> {
 
     fn start(&self, _: M) {}
 
+    fn is_bounded(&self) -> bool {
+        true
+    }
+
     #[inline(always)]
     fn forget(&self, (): &mut (), mut step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         if step.sample.rows() > 1 {

@@ -4,6 +4,9 @@ use super::{AnyEstimator, Error, Forgetting, Memory, Rate, Real, Value, Vec, Vis
 use super::{MARK, VERSION};
 
 /// Everything before the numbers.
+///
+/// # Errors
+/// [`Error::Unsupported`] for a function, which is not data.
 pub fn header<T: Real>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
     let memory = estimator.prior().memory();
     let mut bytes = Vec::from(MARK.as_slice());
@@ -12,10 +15,13 @@ pub fn header<T: Real>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
         bytes.extend_from_slice(&(size as u32).to_le_bytes());
     }
     bytes.push(estimator.prior().form());
-    choice(&mut bytes, estimator.rule().about().name, |each| estimator.rule().describe(each))?;
-    choice(&mut bytes, estimator.rate().about().name, |each| estimator.rate().describe(each))?;
-    choice(&mut bytes, estimator.weighting().about().name, |each| {
-        estimator.weighting().describe(each);
+    bytes.push(u8::from(estimator.health().is_some()));
+    let (rule, rate, weighting) = (estimator.rule(), estimator.rate(), estimator.weighting());
+    let (of_rule, of_rate) = (rule.about().name, rate.about().name);
+    choice(&mut bytes, of_rule, |each| rule.describe(&mut |name, value| each(name, value)))?;
+    choice(&mut bytes, of_rate, |each| rate.describe(&mut |name, value| each(name, value)))?;
+    choice(&mut bytes, weighting.about().name, |each| {
+        weighting.describe(&mut |name, value| each(name, value));
     })?;
     Ok(bytes)
 }
@@ -24,13 +30,12 @@ pub fn header<T: Real>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
 fn choice(
     bytes: &mut Vec<u8>,
     name: &str,
-    describe: impl Fn(&mut dyn FnMut(&'static str, Value<'_>)),
+    each: impl FnOnce(&mut dyn FnMut(&str, Value<'_>)),
 ) -> Result<(), Error> {
     word(bytes, name);
-    let (mut count, mut outcome) = (0u8, Ok(()));
-    let position = bytes.len();
-    bytes.push(count);
-    describe(&mut |name, given| {
+    bytes.push(0);
+    let (position, mut count, mut outcome) = (bytes.len() - 1, 0, Ok(()));
+    each(&mut |name, given| {
         count += 1;
         word(bytes, name);
         outcome = outcome.and(value(bytes, given));
@@ -44,7 +49,6 @@ fn word(bytes: &mut Vec<u8>, word: &str) {
     bytes.extend_from_slice(word.as_bytes());
 }
 
-/// Refuses a function: it is not a number.
 fn value(bytes: &mut Vec<u8>, value: Value<'_>) -> Result<(), Error> {
     match value {
         Value::Real(x) => {
@@ -64,9 +68,13 @@ fn value(bytes: &mut Vec<u8>, value: Value<'_>) -> Result<(), Error> {
                 bytes.extend_from_slice(&elements(k).to_le_bytes());
             }
         }
+        Value::Choice { name, values } => {
+            bytes.push(3);
+            choice(bytes, name, |each| values.each(each))?;
+        }
         Value::Function(_) => {
-            let reason = "an estimator with a function of yours in it cannot be saved: save the \
-                          function's source and the estimator's theta and covariance instead";
+            let reason = "an estimator that uses a function of yours cannot be saved: a function \
+                          is not data";
             return Err(Error::Unsupported { reason });
         }
     }

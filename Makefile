@@ -1,0 +1,58 @@
+# A few words that do whole things. The README, CI and people use the same ones.
+#   make demo    set up, identify two measured records, print where the reports are
+#   make test    set up, then format, lint, types, Rust tests, Python tests
+#   make bench   speed, beside other packages (minutes); bench-full for all of them
+#   make docs    the documentation, warnings as errors
+#   make stubs   write again what is generated from the registries: stubs, README table, rule pages
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+PIP := $(BIN)/python -m pip --disable-pip-version-check -q
+# records inside wheels: their own dependencies are not needed to read them
+RECORDS := pvanalytics==0.2.2 sweat==0.25.0
+
+.PHONY: demo test lint rust python build bench bench-full docs stubs clean
+
+demo: build
+	$(BIN)/forgetting demo all --output demo
+
+test: lint rust python
+
+lint: build
+	cargo fmt --all --check
+	cargo clippy --workspace --all-targets --quiet -- -D warnings
+	cargo clippy --package forgetting --no-default-features --quiet -- -D warnings
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+
+rust:
+	cargo test --package forgetting --quiet
+
+python: build
+	$(BIN)/pytest
+
+build: $(VENV)/ready
+	. $(BIN)/activate && maturin develop --release --quiet
+
+$(VENV)/ready: pyproject.toml
+	cargo clippy --version >/dev/null && cargo fmt --version >/dev/null
+	$(PYTHON) -m venv $(VENV)
+	$(PIP) install --upgrade pip "maturin>=1.7,<2"
+	$(PIP) install --no-deps $(RECORDS)
+	. $(BIN)/activate && maturin develop --release --quiet --extras cli,test
+	touch $@
+
+stubs: build
+	$(BIN)/python tools/generate.py
+
+bench: build
+	$(BIN)/python -m benchmarks --quick
+
+bench-full: build
+	$(BIN)/python -m benchmarks
+
+clean:
+	cargo clean
+	rm -rf $(VENV) demo build

@@ -1,0 +1,271 @@
+//! Watches an estimator while it runs: windup, excitation, noise and whiteness, in O(n) a sample.
+//!
+//! ```text
+//! weakest direction   v ← P v / ‖P v‖ at the end of each block (power iteration), σ² = vᵀ P v
+//! informed            σ² Σ (φ̄ v)² ≥ share, over this block of samples and the one before
+//! windup              σ² > factor · (σ² when v was last informed), and v is not informed
+//! excited             parameter i is when N φ̄_i² P_ii ≥ share, P_ii as of the last block
+//! noise variance      mean of ē² / (1 + φ̄P̄φ̄ᵀ) where φ̄P̄φ̄ᵀ ≤ 1, weighted with the products of λ
+//! whiteness           lag-one correlation of ē / √(1 + φ̄P̄φ̄ᵀ), with the same weights
+//! ```
+//!
+//! A direction has wound up when its variance is more than ten times what it was when it last
+//! received information, it receives none now, and the rule sets it no bound. The largest eigenvector of P is the one to
+//! watch: whatever winds up becomes it. A block is N = max(10, 2n, half the memory) samples, so
+//! that what costs O(n²) is spread over as many samples.
+
+use crate::factor::kernel::dot;
+use crate::state::{State, Visitor};
+use crate::{Factor, Memory, Real, Sample};
+
+/// Growth of the variance of a silent direction that counts as windup.
+pub const FACTOR: f64 = 10.0;
+/// Part of its own variance that a direction must be able to tell to count as informed.
+pub const SHARE: f64 = 0.01;
+
+/// The state of the watch.
+#[derive(Clone, Debug)]
+pub struct Monitor<M: Memory> {
+    bounded: bool,
+    direction: M::Vector,
+    /// a buffer
+    before: M::Vector,
+    variance: M::Real,
+    /// σ² when the direction was last informed
+    reference: M::Real,
+    /// Σ (φ̄ v)² in this block and in the one before
+    information: [M::Real; 2],
+    /// N, as a number to multiply with and as one to count to
+    length: M::Real,
+    in_block: u64,
+    samples: u64,
+    informed: u64,
+    variances: M::Vector,
+    /// samples since each parameter was excited
+    silence: M::Vector,
+    weight: M::Real,
+    squares: M::Real,
+    products: M::Real,
+    previous: M::Real,
+}
+
+/// What the watch is shown of a sample that was used.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen<'a, 'b, M: Memory> {
+    /// the whitened sample
+    pub sample: &'a Sample<'b, M>,
+    /// ‖ē‖² over rows and targets
+    pub squared_error: M::Real,
+    /// tr φ̄P̄φ̄ᵀ
+    pub leverage: M::Real,
+    /// the λ used
+    pub forgetting_factor: M::Real,
+}
+
+/// What the watch has seen.
+#[derive(Clone, Copy, Debug)]
+pub struct Health<'a, T> {
+    /// whether the weakest direction has wound up
+    pub windup: bool,
+    /// whether the weakest direction is informed now
+    pub informed: bool,
+    /// the weakest direction, a unit vector of n numbers
+    pub direction: &'a [T],
+    /// its variance in P
+    pub variance: T,
+    /// its variance over that when it was last informed
+    pub growth: T,
+    /// samples since it was last informed
+    pub since_informed: u64,
+    /// samples since each parameter was excited
+    pub since_excited: &'a [T],
+    /// samples watched
+    pub samples: u64,
+    /// samples in a block
+    pub block: T,
+    /// estimate of the variance of the whitened noise; NaN before the first sample
+    pub noise_variance: T,
+    /// lag-one correlation of the normalized innovations, in [−1, 1]
+    pub correlation: T,
+    /// number of samples that the two estimates before stand on
+    pub weight: T,
+}
+
+impl<M: Memory> Monitor<M> {
+    /// A watch that starts at this P; `bounded` if the rule bounds it without excitation.
+    pub fn new(factor: &Factor<M>, bounded: bool) -> Self {
+        let (memory, zero) = (factor.memory(), M::Real::ZERO);
+        let mut monitor = Self {
+            bounded,
+            direction: memory.vector(),
+            before: memory.vector(),
+            variance: zero,
+            reference: zero,
+            information: [zero; 2],
+            length: zero,
+            in_block: 0,
+            samples: 0,
+            informed: 0,
+            variances: memory.vector(),
+            silence: memory.vector(),
+            weight: zero,
+            squares: zero,
+            products: zero,
+            previous: zero,
+        };
+        monitor.direction.as_mut().fill(M::Real::ONE);
+        monitor.look(factor);
+        monitor.reference = monitor.variance;
+        monitor
+    }
+
+    /// Whether the weakest direction has wound up.
+    #[inline(always)]
+    pub fn windup(&self) -> bool {
+        !self.bounded
+            && !self.is_informed()
+            && self.variance > M::Real::from_f64(FACTOR) * self.reference
+    }
+
+    #[inline(always)]
+    fn is_informed(&self) -> bool {
+        let told = (self.information[0] + self.information[1]) * self.variance;
+        told >= M::Real::from_f64(SHARE)
+    }
+
+    /// Takes note of a sample, none if it was left out, and of P after it.
+    #[inline(always)]
+    pub fn watch(&mut self, factor: &Factor<M>, seen: Option<Seen<'_, '_, M>>) {
+        self.samples += 1;
+        self.silence.as_mut().iter_mut().for_each(|silence| *silence += M::Real::ONE);
+        if let Some(seen) = seen {
+            self.note_excitation(seen.sample);
+            self.note_innovation(&seen);
+        }
+        self.in_block += 1;
+        if M::Real::from_f64(self.in_block as f64) >= self.length {
+            self.turn(factor);
+        }
+    }
+
+    #[inline(always)]
+    fn note_excitation(&mut self, sample: &Sample<'_, M>) {
+        let share = M::Real::from_f64(SHARE);
+        for i in 0..sample.rows() {
+            let along = dot(sample.row(i), self.direction.as_ref());
+            self.information[0] += along * along;
+            let parameters = self.silence.as_mut().iter_mut().zip(self.variances.as_ref());
+            for (&f, (silence, &variance)) in sample.row(i).iter().zip(parameters) {
+                let excited = f * f * (variance * self.length) >= share;
+                *silence = if excited { M::Real::ZERO } else { *silence };
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn note_innovation(&mut self, seen: &Seen<'_, '_, M>) {
+        let Seen { sample, squared_error, leverage, forgetting_factor: lambda } = *seen;
+        let spread = M::Real::ONE + leverage / M::Real::from_f64(sample.rows() as f64);
+        let measurements = M::Real::from_f64(sample.errors().len() as f64);
+        if spread > M::Real::from_f64(2.0) {
+            return; // more uncertain of the parameters than of the noise: it tells nothing of noise
+        }
+        let innovation = sample.errors()[0] / spread.sqrt();
+        self.weight = lambda.mul_add(self.weight, M::Real::ONE);
+        self.squares = lambda.mul_add(self.squares, squared_error / (measurements * spread));
+        self.products = lambda.mul_add(self.products, innovation * self.previous);
+        self.previous = innovation;
+    }
+
+    /// The end of a block.
+    #[cold]
+    fn turn(&mut self, factor: &Factor<M>) {
+        let before = self.variance;
+        let informed = self.information[0] * before >= M::Real::from_f64(SHARE);
+        let same = self.look(factor);
+        if informed {
+            self.informed = self.samples;
+            self.reference = if same { before.min(self.variance) } else { self.variance };
+        }
+        self.reference = self.reference.min(self.variance);
+        self.information = [M::Real::ZERO, self.information[0]];
+        self.in_block = 0;
+    }
+
+    /// Looks for the weakest direction again; says whether it is still about the same. O(n²).
+    fn look(&mut self, factor: &Factor<M>) -> bool {
+        let n = factor.parameters();
+        let half = M::Real::from_f64(0.5);
+        self.length = M::Real::from_f64((2 * n).max(10) as f64).max(half * self.weight);
+        factor.variances(self.variances.as_mut());
+        let (before, direction) = (self.before.as_mut(), self.direction.as_mut());
+        before.copy_from_slice(direction);
+        // a little of every axis keeps the iteration from missing a direction for ever
+        let nudge = M::Real::EPSILON.sqrt();
+        for (i, x) in direction.iter_mut().enumerate() {
+            let up = (self.samples >> (i % 32)) & 1 == 0;
+            *x += if up { nudge } else { -nudge };
+        }
+        factor.multiply(direction);
+        if !normalize(direction) {
+            direction.copy_from_slice(before);
+        }
+        self.variance = factor.leverage(direction);
+        let overlap = dot(direction, before);
+        overlap * overlap > M::Real::from_f64(0.8)
+    }
+
+    /// What the watch has seen.
+    pub fn health(&self) -> Health<'_, M::Real> {
+        let informed = self.is_informed();
+        Health {
+            windup: self.windup(),
+            informed,
+            direction: self.direction.as_ref(),
+            variance: self.variance,
+            growth: if informed { M::Real::ONE } else { self.variance / self.reference },
+            since_informed: if informed { 0 } else { self.samples - self.informed },
+            since_excited: self.silence.as_ref(),
+            samples: self.samples,
+            block: self.length,
+            noise_variance: self.squares / self.weight,
+            correlation: self.products / self.squares,
+            weight: self.weight,
+        }
+    }
+}
+
+impl<M: Memory> State<M::Real> for Monitor<M> {
+    fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
+        for vector in [&mut self.direction, &mut self.variances, &mut self.silence] {
+            visitor.reals(vector.as_mut());
+        }
+        visitor.reals(&mut self.information);
+        for number in [
+            &mut self.variance,
+            &mut self.reference,
+            &mut self.length,
+            &mut self.weight,
+            &mut self.squares,
+            &mut self.products,
+            &mut self.previous,
+        ] {
+            visitor.reals(core::slice::from_mut(number));
+        }
+        for count in [&mut self.in_block, &mut self.samples, &mut self.informed] {
+            visitor.whole(count);
+        }
+    }
+}
+
+/// x ← x / ‖x‖, if that has a value; says whether it has.
+fn normalize<T: Real>(x: &mut [T]) -> bool {
+    let largest = x.iter().fold(T::ZERO, |largest, x| largest.max(x.abs()));
+    if !(largest > T::ZERO && largest.is_finite()) {
+        return false;
+    }
+    x.iter_mut().for_each(|x| *x /= largest);
+    let length = dot(x, x).sqrt();
+    x.iter_mut().for_each(|x| *x /= length);
+    true
+}

@@ -1,0 +1,114 @@
+"""The live watch: what it says of excitation, windup and noise, and that it changes nothing."""
+
+import numpy as np
+import pytest
+
+import forgetting as fg
+
+THETA = np.array([1.0, -2.0, 0.5, 3.0])
+NOISE = 0.01
+STUCK = np.array([1.0, 0.5, -0.3, 0.8])
+BOUNDED = [fg.Subspace(0.98), fg.ExponentialResetting(0.98), fg.NoForgetting()]
+
+
+def watched(rule, dtype="float64"):
+    """An estimator after 2000 exciting samples, and a source of noise."""
+    random = np.random.default_rng(3)
+    est = fg.RLS(4, rule=rule, monitor=True, dtype=dtype)
+    phi = random.normal(size=(2000, 4))
+    run = est.run(phi, phi @ THETA + NOISE * random.normal(size=2000), outputs=["windup"])
+    assert not run.windup.any()
+    return est, random
+
+
+def feed(est, random, phi, samples):
+    phi = np.tile(phi, (samples, 1))
+    y = phi @ THETA + NOISE * random.normal(size=samples)
+    return est.run(phi, y, outputs=["windup"]).windup
+
+
+@pytest.mark.parametrize("dtype", ["float64", "float32"])
+@pytest.mark.parametrize("rule", [*BOUNDED, fg.Exponential(0.98)], ids=lambda rule: rule.name)
+def test_excitation_is_ok_and_the_noise_is_found(rule, dtype):
+    est, _ = watched(rule, dtype)
+    health = est.health(exact=True)
+    assert health.status == "ok"
+    assert health.growth == 1.0
+    assert health.noise_variance == pytest.approx(NOISE**2, rel=0.4)
+    assert health.white
+    values = np.linalg.eigvalsh(est.covariance.astype(float))
+    assert health.largest_eigenvalue == pytest.approx(values[-1], rel=1e-4)
+    assert health.smallest_eigenvalue == pytest.approx(values[0], rel=1e-4)
+    bounds = est.health()
+    assert bounds.largest_eigenvalue <= health.largest_eigenvalue * (1 + 1e-4)
+    assert bounds.smallest_eigenvalue >= health.smallest_eigenvalue * (1 - 1e-4)
+
+
+@pytest.mark.parametrize("dtype", ["float64", "float32"])
+def test_exponential_winds_up_in_the_directions_without_excitation(dtype):
+    est, random = watched(fg.Exponential(0.98), dtype)
+    alarm = feed(est, random, STUCK, 400)
+    growth_of_ten = np.log(10) / -np.log(0.98)
+    assert growth_of_ten < alarm.argmax() < growth_of_ten + 80
+    assert alarm[alarm.argmax() :].all()
+    health = est.health()
+    assert health.status == "windup"
+    assert abs(health.direction @ STUCK) < 1e-3
+    assert health.growth > 100
+    assert 300 < health.since_informed <= 400
+
+
+@pytest.mark.parametrize("rule", BOUNDED, ids=lambda rule: rule.name)
+def test_bounded_rules_never_wind_up(rule):
+    est, random = watched(rule)
+    assert not feed(est, random, STUCK, 3000).any()
+    assert not feed(est, random, np.zeros(4), 3000).any()
+    if rule.name != "none":  # its memory is the whole record, 6000 silent samples are not most
+        assert est.health().status == "unexcited"
+
+
+def test_the_alarm_ends_when_excitation_returns():
+    est, random = watched(fg.Exponential(0.98))
+    assert feed(est, random, np.zeros(4), 400)[-1]
+    phi = random.normal(size=(60, 4))
+    run = est.run(phi, phi @ THETA, outputs=["windup"])
+    assert not run.windup[-1]
+    assert est.health().status == "ok"
+
+
+def test_it_names_the_parameter():
+    est, random = watched(fg.Exponential(0.98))
+    feed(est, random, [1.0, 1.0, 1.0, 0.0], 50)
+    random_but_last = random.normal(size=(400, 4)) * [1, 1, 1, 0]
+    est.run(random_but_last, random_but_last @ THETA + NOISE * random.normal(size=400))
+    health = est.health()
+    assert health.describe(["a", "b", "c", "d"]).startswith("windup: nothing has informed d for 4")
+    assert health.since_excited[3] >= 450
+    assert health.since_excited[:3].max() < 20
+
+
+def test_correlated_innovations_are_not_white():
+    random = np.random.default_rng(0)
+    est = fg.RLS(1, rule=fg.Exponential(0.99), monitor=True)
+    noise = np.zeros(3000)
+    for k in range(1, 3000):
+        noise[k] = 0.8 * noise[k - 1] + random.normal()
+    phi = random.normal(size=(3000, 1))
+    est.run(phi, phi[:, 0] + noise)
+    health = est.health()
+    assert health.white is False
+    assert health.correlation == pytest.approx(0.8, abs=0.15)
+
+
+def test_the_watch_changes_no_estimate_and_is_saved_with_it():
+    random = np.random.default_rng(1)
+    phi, y = random.normal(size=(100, 4)), random.normal(size=100)
+    plain, seen = fg.RLS(4), fg.RLS(4, monitor=True)
+    assert np.array_equal(plain.run(phi, y).theta, seen.run(phi, y).theta)
+    assert fg.RLS.from_bytes(seen.to_bytes()).watched().keys() == seen.watched().keys()
+    assert fg.RLS.from_bytes(seen.to_bytes()).to_bytes() == seen.to_bytes()
+    assert plain.watched() is None
+    assert plain.health().direction is None
+    assert plain.health().status == "ok"
+    seen.reset()
+    assert seen.watched()["samples"] == 0
