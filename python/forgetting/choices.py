@@ -58,6 +58,11 @@ class Rule(Choice):
 
     def _take(self, values: dict[str, Any]) -> None:
         self.forgetting_factor = values.pop("forgetting_factor", None)
+        if "forgetting_factors" in values and not isinstance(
+            self.forgetting_factor, int | float | Rate | None
+        ):
+            # a list in the place of the common factor: one for each block
+            values["forgetting_factors"], self.forgetting_factor = self.forgetting_factor, None
         for entry in self.about["parameters"]:
             if entry["kind"] == "rule":
                 inner = values[entry["name"]]
@@ -67,7 +72,7 @@ class Rule(Choice):
         self.parameters = values
 
     def _arguments(self) -> dict[str, Any]:
-        if not self.about["forgetting_factor"]:
+        if not self.about["forgetting_factor"] or self.forgetting_factor is None:
             return self.parameters
         return {"forgetting_factor": self.forgetting_factor, **self.parameters}
 

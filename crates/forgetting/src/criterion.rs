@@ -25,13 +25,13 @@ pub const THRESHOLD: Parameter = Parameter::real(
     1e-3,
     Range::POSITIVE,
     "P is reset when its trace or smallest eigenvalue is below (1e-3 if not given), or when the \
-     sum of `change` is above (30 if not given)",
+     sum of `change` is above (20 if not given)",
 )
 .optional();
 /// d
 pub const DRIFT: Parameter = Parameter::real(
     "drift",
-    0.5,
+    1.0,
     Range::NON_NEGATIVE,
     "excess of the normalised squared innovation that is no change, for the criterion `change`",
 );
@@ -80,7 +80,7 @@ impl<T: Real> Criterion<T> {
             0 => Self::Period(period as u64),
             1 => Self::Trace(below),
             2 => Self::SmallestEigenvalue(below),
-            _ => Self::Change { threshold: threshold(30.0)?, drift, memory: memory as u64 },
+            _ => Self::Change { threshold: threshold(20.0)?, drift, memory: memory as u64 },
         })
     }
 

@@ -46,6 +46,7 @@ pub mod spectrum;
 pub mod state;
 #[cfg(test)]
 mod testing;
+pub mod vector;
 pub mod weighting;
 mod work;
 
@@ -63,7 +64,7 @@ pub use memory::{Buffer, Fixed, Grid, Memory, Packed, Size};
 pub use monitor::Health;
 pub use prior::Prior;
 pub use rates::{Constant, Rate};
-pub use real::Real;
+pub use real::{Kernel, Real};
 pub use root::Root;
 pub use rules::{Exponential, ExponentialResetting, Forgetting, NoForgetting, Skip, Subspace};
 pub use sample::Sample;

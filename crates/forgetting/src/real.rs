@@ -1,7 +1,19 @@
 //! The numbers an estimator computes with: `f64` and `f32`.
 
+use crate::vector::{Lanes, Vector};
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+
+/// A loop over many numbers, as a value: a number type decides with which instructions it runs.
+pub trait Kernel<T: Real> {
+    /// what the loop returns
+    type Output;
+    /// How many parameters it is for.
+    fn size(&self) -> usize;
+    /// The loop, with vectors `V`, over at most `GROUP` columns of U at a time: as many as the
+    /// registers hold. The result depends on neither.
+    fn run<V: Vector<T>, const GROUP: usize>(self) -> Self::Output;
+}
 
 /// A floating-point number.
 ///
@@ -25,6 +37,11 @@ pub trait Real:
     + MulAssign
     + DivAssign
 {
+    /// The numbers of one vector: 8 of eight bytes or 16 of four.
+    type Chunk: Copy;
+    /// A vector that needs no particular instructions.
+    type Lanes: Vector<Self>;
+
     /// 0
     const ZERO: Self;
     /// 1
@@ -58,6 +75,17 @@ pub trait Real:
     /// Neither infinite nor NaN.
     fn is_finite(self) -> bool;
 
+    /// Runs a loop over numbers of this type, with the instructions that suit it best.
+    #[inline(always)]
+    fn compute<K: Kernel<Self>>(kernel: K) -> K::Output {
+        kernel.run::<Self::Lanes, 2>()
+    }
+
+    /// `numbers` as chunks, and what is left.
+    fn chunks(numbers: &[Self]) -> (&[Self::Chunk], &[Self]);
+    /// The same, to be written.
+    fn chunks_mut(numbers: &mut [Self]) -> (&mut [Self::Chunk], &mut [Self]);
+
     /// The larger of two numbers, neither of them NaN.
     #[inline(always)]
     fn max(self, other: Self) -> Self {
@@ -80,8 +108,10 @@ pub trait Real:
 }
 
 macro_rules! real {
-    ($float:ident, $ceiling:expr, $floor:expr, $sqrt:path, $ln:path, $exp:path) => {
+    ($float:ident, $lanes:literal, $ceiling:expr, $floor:expr, $sqrt:path, $ln:path, $exp:path) => {
         impl Real for $float {
+            type Chunk = [Self; $lanes];
+            type Lanes = Lanes<Self, $lanes>;
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
             const EPSILON: Self = $float::EPSILON;
@@ -89,6 +119,14 @@ macro_rules! real {
             const FLOOR: Self = $floor;
             const BYTES: usize = core::mem::size_of::<$float>();
 
+            #[inline(always)]
+            fn chunks(numbers: &[Self]) -> (&[Self::Chunk], &[Self]) {
+                numbers.as_chunks()
+            }
+            #[inline(always)]
+            fn chunks_mut(numbers: &mut [Self]) -> (&mut [Self::Chunk], &mut [Self]) {
+                numbers.as_chunks_mut()
+            }
             #[inline(always)]
             fn from_f64(x: f64) -> Self {
                 x as $float
@@ -126,8 +164,8 @@ macro_rules! real {
 }
 
 // 2^500 and 2^62, with their reciprocals
-real!(f64, 3.273390607896142e150, 3.054_936_363_499_605e-151, libm::sqrt, libm::log, libm::exp);
-real!(f32, 4.611686e18, 2.1684043e-19, libm::sqrtf, libm::logf, libm::expf);
+real!(f64, 8, 3.273390607896142e150, 3.054_936_363_499_605e-151, libm::sqrt, libm::log, libm::exp);
+real!(f32, 16, 4.611686e18, 2.1684043e-19, libm::sqrtf, libm::logf, libm::expf);
 
 #[cfg(test)]
 mod tests {

@@ -3,6 +3,9 @@
 //! `columns` holds U above its unit diagonal, column j (j numbers) from j (j − 1) / 2 on; every
 //! inner loop runs along one column, over neighbouring numbers.
 
+mod bierman;
+mod block;
+
 use crate::Real;
 
 /// Column j of the packed triangle.
@@ -61,31 +64,9 @@ pub fn leverage<T: Real>(columns: &[T], diagonal: &[T], f: &[T]) -> T {
 ///
 /// Returns `(s, a)`, the leverage s = f·P·fᵀ and the innovation variance a = 1 + s, and leaves
 /// a times the gain, P·fᵀ with the P of before, in `gain`. O(1.5 n²).
-///
-/// G. J. Bierman, *Factorization Methods for Discrete Sequential Estimation*, 1977, chapter V.
 #[inline(always)]
 pub fn bierman<T: Real>(columns: &mut [T], diagonal: &mut [T], f: &[T], gain: &mut [T]) -> (T, T) {
-    let n = diagonal.len();
-    let (f, gain) = (&f[..n], &mut gain[..n]);
-    let (mut s, mut a, mut inverse_a) = (T::ZERO, T::ONE, T::ONE);
-    for j in 0..n {
-        let u = column_mut(columns, j);
-        let w = f[j] + dot(u, f);
-        let v = diagonal[j] * w;
-        let slope = -(w * inverse_a);
-        s = w.mul_add(v, s);
-        let next = w.mul_add(v, a);
-        inverse_a = T::ONE / next;
-        diagonal[j] = (diagonal[j] * (a * inverse_a)).max(T::FLOOR);
-        a = next;
-        for (u, k) in u.iter_mut().zip(gain.iter_mut()) {
-            let before = *u;
-            *u = slope.mul_add(*k, before);
-            *k = v.mul_add(before, *k);
-        }
-        gain[j] = v;
-    }
-    (s, a)
+    T::compute(bierman::Bierman { columns, diagonal, f, gain })
 }
 
 /// Agee and Turner's update: P ← P + c·x·xᵀ with c ≥ 0. Uses up `x`. O(n²).

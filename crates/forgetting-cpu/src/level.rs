@@ -1,0 +1,141 @@
+//! What the machine can do, found out once.
+
+use forgetting::vector::Vector;
+use forgetting::{Kernel, Real};
+use std::sync::atomic::{AtomicU8, Ordering};
+
+/// A set of instructions, each with those before it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(u8)]
+pub enum Level {
+    /// what every machine of this architecture has, without fused multiply-add
+    Baseline = 1,
+    /// fused multiply-add and vectors of 256 bits (AVX2 and FMA), or NEON
+    Fused = 2,
+    /// vectors of 512 bits (AVX-512)
+    Wide = 3,
+}
+
+/// The variable of the environment that holds the level down: `baseline`, `avx2` (or `neon`) or
+/// `avx512`.
+pub const VARIABLE: &str = "FORGETTING_CPU";
+
+/// The best level that the machine has and the environment allows.
+#[inline(always)]
+pub fn level() -> Level {
+    static LEVEL: AtomicU8 = AtomicU8::new(0);
+    match LEVEL.load(Ordering::Relaxed) {
+        1 => Level::Baseline,
+        2 => Level::Fused,
+        3 => Level::Wide,
+        _ => {
+            let level = allowed().map_or(detected(), |allowed| detected().min(allowed));
+            LEVEL.store(level as u8, Ordering::Relaxed);
+            level
+        }
+    }
+}
+
+#[cold]
+fn allowed() -> Option<Level> {
+    match std::env::var(VARIABLE).ok()?.as_str() {
+        "baseline" => Some(Level::Baseline),
+        "avx2" | "neon" => Some(Level::Fused),
+        _ => None,
+    }
+}
+
+#[cold]
+#[cfg(target_arch = "x86_64")]
+fn detected() -> Level {
+    if !(is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma")) {
+        Level::Baseline
+    } else if is_x86_feature_detected!("avx512f")
+        && is_x86_feature_detected!("avx512dq")
+        && is_x86_feature_detected!("avx512vl")
+    {
+        Level::Wide
+    } else {
+        Level::Fused
+    }
+}
+
+#[cold]
+#[cfg(target_arch = "aarch64")]
+fn detected() -> Level {
+    Level::Fused
+}
+
+#[cold]
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+fn detected() -> Level {
+    Level::Baseline
+}
+
+/// Kernels for fewer parameters than this gain nothing from vectors of 512 bits.
+#[cfg(target_arch = "x86_64")]
+const WIDE_FROM: usize = 16;
+
+/// The vectors of a number type for each level.
+#[cfg(target_arch = "x86_64")]
+pub trait Vectors: Real {
+    /// for AVX2 and FMA
+    type Fused: Vector<Self>;
+    /// for AVX-512
+    type Wide: Vector<Self>;
+}
+
+/// Runs `kernel` with the instructions of [`level`].
+#[inline(always)]
+#[cfg(target_arch = "x86_64")]
+pub(crate) fn run<T: Vectors, K: Kernel<T>>(kernel: K) -> K::Output {
+    match level() {
+        // SAFETY: the level says that the machine has AVX-512 F, DQ and VL, AVX2 and FMA
+        Level::Wide if kernel.size() >= WIDE_FROM => unsafe { run_wide(kernel) },
+        Level::Baseline => kernel.run::<T::Lanes, 2>(),
+        // SAFETY: the level says that the machine has AVX2 and FMA
+        _ => unsafe { run_fused(kernel) },
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma,avx512f,avx512dq,avx512vl")]
+fn run_wide<T: Vectors, K: Kernel<T>>(kernel: K) -> K::Output {
+    kernel.run::<T::Wide, 8>()
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+fn run_fused<T: Vectors, K: Kernel<T>>(kernel: K) -> K::Output {
+    kernel.run::<T::Fused, 4>()
+}
+
+/// Runs `kernel`: every aarch64 has NEON and fused multiply-add.
+#[inline(always)]
+#[cfg(not(target_arch = "x86_64"))]
+pub(crate) fn run<T: Real, K: Kernel<T>>(kernel: K) -> K::Output {
+    kernel.run::<T::Lanes, 4>()
+}
+
+/// A loop over samples, as a value.
+pub trait Work {
+    /// what it returns
+    type Output;
+    /// The loop; to be marked `#[inline(always)]`, as what it calls.
+    fn run(self) -> Self::Output;
+}
+
+/// Runs `work` with fused multiply-add in all that is inlined into it, if the machine has it.
+#[inline(always)]
+pub fn whole_loop<W: Work>(work: W) -> W::Output {
+    #[cfg(target_arch = "x86_64")]
+    if level() >= Level::Fused {
+        #[target_feature(enable = "avx2,fma")]
+        fn with<W: Work>(work: W) -> W::Output {
+            work.run()
+        }
+        // SAFETY: the level says that the machine has AVX2 and FMA
+        return unsafe { with(work) };
+    }
+    work.run()
+}

@@ -1,0 +1,15 @@
+//! Number types that let the crate `forgetting` use the vector instructions of the machine.
+//!
+//! [`Fused<f64>`] and [`Fused<f32>`] are `f64` and `f32` whose `mul_add` rounds once, as the
+//! fused multiply-add of the hardware does. The loops over many numbers run with AVX-512, or
+//! AVX2 and FMA, or NEON, found out once at the start: [`level`]. Their results are the same bits
+//! on all of these; on a machine without fused multiply-add they would be too, but slow: use plain
+//! `f64` and `f32` there.
+
+mod fused;
+mod level;
+#[cfg(target_arch = "x86_64")]
+mod x86;
+
+pub use fused::Fused;
+pub use level::{level, whole_loop, Level, Work};

@@ -1,0 +1,203 @@
+//! Vectors in the registers of x86-64.
+//!
+//! These types are named by the functions of `level` alone, which check that the machine has the
+//! instructions before they run anything over them.
+
+use crate::level::Vectors;
+use crate::Fused;
+use core::arch::x86_64::*;
+use forgetting::vector::{Vector, HALF};
+
+/// Two registers of 256 bits.
+#[derive(Clone, Copy)]
+pub struct Pair<R>(R, R);
+
+/// A register of 512 bits.
+#[derive(Clone, Copy)]
+pub struct Wide<R>(R);
+
+impl Vectors for Fused<f64> {
+    type Fused = Pair<__m256d>;
+    type Wide = Wide<__m512d>;
+}
+
+impl Vectors for Fused<f32> {
+    type Fused = Pair<__m256>;
+    type Wide = Wide<__m512>;
+}
+
+/// The address of the numbers of an array.
+macro_rules! at {
+    ($array:expr, $float:ty, $offset:expr) => {
+        $array.as_ptr().cast::<$float>().add($offset)
+    };
+}
+macro_rules! at_mut {
+    ($array:expr, $float:ty, $offset:expr) => {
+        $array.as_mut_ptr().cast::<$float>().add($offset)
+    };
+}
+
+// SAFETY, for every `unsafe` below: the machine has the instructions (see the head of this
+// file), `Fused` has the layout of its number, and the addresses are those of arrays of at least
+// as many numbers as are read or written; loads and stores need no alignment.
+
+impl Vector<Fused<f64>> for Wide<__m512d> {
+    #[inline(always)]
+    fn splat(x: Fused<f64>) -> Self {
+        Self(unsafe { _mm512_set1_pd(x.0) })
+    }
+    #[inline(always)]
+    fn load(chunk: &[Fused<f64>; 8]) -> Self {
+        Self(unsafe { _mm512_loadu_pd(at!(chunk, f64, 0)) })
+    }
+    #[inline(always)]
+    fn load_half(half: &[Fused<f64>; HALF]) -> Self {
+        Self::load(half)
+    }
+    #[inline(always)]
+    fn store(self, chunk: &mut [Fused<f64>; 8]) {
+        unsafe { _mm512_storeu_pd(at_mut!(chunk, f64, 0), self.0) }
+    }
+    #[inline(always)]
+    fn store_half(self, half: &mut [Fused<f64>; HALF]) {
+        self.store(half);
+    }
+    #[inline(always)]
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        Self(unsafe { _mm512_fmadd_pd(self.0, factor.0, term.0) })
+    }
+    #[inline(always)]
+    fn sum(self) -> Fused<f64> {
+        Pair(unsafe { _mm512_castpd512_pd256(self.0) }, unsafe {
+            _mm512_extractf64x4_pd::<1>(self.0)
+        })
+        .sum()
+    }
+}
+
+impl Vector<Fused<f64>> for Pair<__m256d> {
+    #[inline(always)]
+    fn splat(x: Fused<f64>) -> Self {
+        let x = unsafe { _mm256_set1_pd(x.0) };
+        Self(x, x)
+    }
+    #[inline(always)]
+    fn load(chunk: &[Fused<f64>; 8]) -> Self {
+        unsafe { Self(_mm256_loadu_pd(at!(chunk, f64, 0)), _mm256_loadu_pd(at!(chunk, f64, 4))) }
+    }
+    #[inline(always)]
+    fn load_half(half: &[Fused<f64>; HALF]) -> Self {
+        Self::load(half)
+    }
+    #[inline(always)]
+    fn store(self, chunk: &mut [Fused<f64>; 8]) {
+        unsafe {
+            _mm256_storeu_pd(at_mut!(chunk, f64, 0), self.0);
+            _mm256_storeu_pd(at_mut!(chunk, f64, 4), self.1);
+        }
+    }
+    #[inline(always)]
+    fn store_half(self, half: &mut [Fused<f64>; HALF]) {
+        self.store(half);
+    }
+    #[inline(always)]
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        unsafe {
+            Self(
+                _mm256_fmadd_pd(self.0, factor.0, term.0),
+                _mm256_fmadd_pd(self.1, factor.1, term.1),
+            )
+        }
+    }
+    #[inline(always)]
+    fn sum(self) -> Fused<f64> {
+        unsafe {
+            let four = _mm256_add_pd(self.0, self.1);
+            let (low, high) = (_mm256_castpd256_pd128(four), _mm256_extractf128_pd::<1>(four));
+            // (four[0] + four[1]) and (four[2] + four[3])
+            let pairs = _mm_hadd_pd(low, high);
+            Fused(_mm_cvtsd_f64(_mm_add_sd(pairs, _mm_unpackhi_pd(pairs, pairs))))
+        }
+    }
+}
+
+impl Vector<Fused<f32>> for Wide<__m512> {
+    #[inline(always)]
+    fn splat(x: Fused<f32>) -> Self {
+        Self(unsafe { _mm512_set1_ps(x.0) })
+    }
+    #[inline(always)]
+    fn load(chunk: &[Fused<f32>; 16]) -> Self {
+        Self(unsafe { _mm512_loadu_ps(at!(chunk, f32, 0)) })
+    }
+    #[inline(always)]
+    fn load_half(half: &[Fused<f32>; HALF]) -> Self {
+        Self(unsafe { _mm512_zextps256_ps512(_mm256_loadu_ps(at!(half, f32, 0))) })
+    }
+    #[inline(always)]
+    fn store(self, chunk: &mut [Fused<f32>; 16]) {
+        unsafe { _mm512_storeu_ps(at_mut!(chunk, f32, 0), self.0) }
+    }
+    #[inline(always)]
+    fn store_half(self, half: &mut [Fused<f32>; HALF]) {
+        unsafe { _mm256_storeu_ps(at_mut!(half, f32, 0), _mm512_castps512_ps256(self.0)) }
+    }
+    #[inline(always)]
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        Self(unsafe { _mm512_fmadd_ps(self.0, factor.0, term.0) })
+    }
+    #[inline(always)]
+    fn sum(self) -> Fused<f32> {
+        Pair(unsafe { _mm512_castps512_ps256(self.0) }, unsafe {
+            _mm512_extractf32x8_ps::<1>(self.0)
+        })
+        .sum()
+    }
+}
+
+impl Vector<Fused<f32>> for Pair<__m256> {
+    #[inline(always)]
+    fn splat(x: Fused<f32>) -> Self {
+        let x = unsafe { _mm256_set1_ps(x.0) };
+        Self(x, x)
+    }
+    #[inline(always)]
+    fn load(chunk: &[Fused<f32>; 16]) -> Self {
+        unsafe { Self(_mm256_loadu_ps(at!(chunk, f32, 0)), _mm256_loadu_ps(at!(chunk, f32, 8))) }
+    }
+    #[inline(always)]
+    fn load_half(half: &[Fused<f32>; HALF]) -> Self {
+        unsafe { Self(_mm256_loadu_ps(at!(half, f32, 0)), _mm256_setzero_ps()) }
+    }
+    #[inline(always)]
+    fn store(self, chunk: &mut [Fused<f32>; 16]) {
+        unsafe {
+            _mm256_storeu_ps(at_mut!(chunk, f32, 0), self.0);
+            _mm256_storeu_ps(at_mut!(chunk, f32, 8), self.1);
+        }
+    }
+    #[inline(always)]
+    fn store_half(self, half: &mut [Fused<f32>; HALF]) {
+        unsafe { _mm256_storeu_ps(at_mut!(half, f32, 0), self.0) }
+    }
+    #[inline(always)]
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        unsafe {
+            Self(
+                _mm256_fmadd_ps(self.0, factor.0, term.0),
+                _mm256_fmadd_ps(self.1, factor.1, term.1),
+            )
+        }
+    }
+    #[inline(always)]
+    fn sum(self) -> Fused<f32> {
+        unsafe {
+            let eight = _mm256_add_ps(self.0, self.1);
+            let four = _mm_add_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps::<1>(eight));
+            // (four[0] + four[1]) and (four[2] + four[3])
+            let pairs = _mm_hadd_ps(four, four);
+            Fused(_mm_cvtss_f32(_mm_add_ss(pairs, _mm_movehdup_ps(pairs))))
+        }
+    }
+}
