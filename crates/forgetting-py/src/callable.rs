@@ -1,29 +1,22 @@
 //! Functions of the user's: Python callables that the core asks in the middle of a sample.
 
 use crate::arrays::{shaped, Number};
-use forgetting::rates::{AnyRate, Function};
+use crate::errors::keep_exception;
+use forgetting::parameter::{Kind, Parameter};
+use forgetting::rates::Function;
 use forgetting::saved::AnyEstimator;
 use forgetting::{Dynamic, Error};
 use pyo3::prelude::*;
 use pyo3::types::PyFloat;
 use std::any::Any;
-use std::cell::RefCell;
-
-thread_local! {
-    /// The exception of a callable, while the core's error makes its way back.
-    static RAISED: RefCell<Option<PyErr>> = const { RefCell::new(None) };
-}
-
-/// The exception behind an [`Error::Function`] of this thread.
-pub fn raised() -> Option<PyErr> {
-    RAISED.take()
-}
 
 /// Whether the estimator runs Python code in the middle of a sample.
 ///
 /// Such code may change any array, so that none may be borrowed meanwhile.
 pub fn calls_python<T: Number>(estimator: &AnyEstimator<T>) -> bool {
-    matches!(estimator.rate(), AnyRate::Function(_))
+    let is_function = |parameter: &Parameter| parameter.kind == Kind::Function;
+    estimator.rule().about().parameters.iter().any(is_function)
+        || estimator.rate().about().parameters.iter().any(is_function)
 }
 
 /// What a callable rate is told of a sample, before the sample is used.
@@ -115,9 +108,6 @@ fn ask<T: Number>(
     };
     Python::attach(|py| {
         let answer = callable.call1(py, (seen,)).and_then(|answer| answer.extract::<f64>(py));
-        answer.map(T::from_f64).map_err(|error| {
-            RAISED.set(Some(error));
-            Error::Function { parameter: "forgetting_factor" }
-        })
+        answer.map(T::from_f64).map_err(|error| keep_exception(error, "forgetting_factor"))
     })
 }

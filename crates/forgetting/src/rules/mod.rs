@@ -273,4 +273,5 @@ registry! {
     efra::Efra,
     constant_trace::ConstantTrace,
     multiple::Multiple,
+    custom::Custom,
 }
