@@ -4,11 +4,14 @@
 use crate::arrays::with_slice;
 use crate::callable;
 use crate::errors::{invalid, raise};
+use crate::function::Callable;
+use forgetting::function::MatrixFunction;
 use forgetting::parameter::{Parameter, Value, Values};
 use forgetting::rules::RULES;
 use forgetting::Error;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat, PyInt, PyString};
+use std::sync::Arc;
 
 /// A parameter's value, taken from Python.
 pub enum Given {
@@ -16,7 +19,7 @@ pub enum Given {
     Word(String),
     Matrix { rows: usize, columns: usize, elements: Box<dyn Fn(usize) -> f64 + Send + Sync> },
     Choice(Choice),
-    Function(Py<PyAny>),
+    Function(Arc<dyn MatrixFunction>),
 }
 
 /// A name and its parameters.
@@ -58,10 +61,10 @@ impl Choice {
         Ok(Self { name, parameters: given })
     }
 
-    /// The function given for the parameter `name`, if one was.
-    pub fn function(&self, name: &str) -> Option<&Py<PyAny>> {
+    /// The callable given for the parameter `name`, if one was.
+    pub fn callable<'py>(&self, py: Python<'py>, name: &str) -> Option<Bound<'py, PyAny>> {
         self.parameters.iter().find(|(known, _)| known == name).and_then(|(_, value)| match value {
-            Given::Function(function) => Some(function),
+            Given::Function(function) => Some(callable::python(py, function)),
             _ => None,
         })
     }
@@ -125,7 +128,7 @@ fn read_value(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Given> {
         return Choice::read(name, value).map(Given::Choice);
     }
     if value.is_callable() {
-        return Ok(Given::Function(value.clone().unbind()));
+        return Ok(Given::Function(Arc::new(Callable::new(name, value))));
     }
     let shape = shape_of(name, value)?;
     let elements = with_slice::<f64, _>(name, value, |elements| Ok(elements.to_vec()))?;
@@ -162,10 +165,7 @@ pub fn write_value<'py>(py: Python<'py>, value: Value<'_>) -> PyResult<Bound<'py
             // a list compares and prints as it was given
             crate::arrays::shaped(py, elements, shape)?.call_method0("tolist")
         }
-        Value::Function(function) => match callable::origin(function) {
-            Some(function) => Ok(function.bind(py).clone()),
-            None => Ok(py.None().into_bound(py)),
-        },
+        Value::Function(function) => Ok(callable::python(py, function)),
         Value::Choice { name, values } => {
             write_choice(py, name, |each| values.each(each)).map(Bound::into_any)
         }

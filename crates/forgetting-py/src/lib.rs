@@ -6,6 +6,7 @@ mod callable;
 mod choice;
 mod configure;
 mod errors;
+mod function;
 mod outputs;
 mod record;
 mod registry;

@@ -119,7 +119,7 @@ impl<M: Memory> Rate<M> for Schedule<M> {
 
     fn start(&self, _: M) {}
 
-    #[inline(always)]
+    #[inline]
     fn forgetting_factor(
         &self,
         (): &(),
