@@ -1,7 +1,7 @@
-"""Writes python/forgetting/registry.pyi: what the registries of the core look like to a type checker.
+"""Writes python/forgetting/registry.pyi, which tells type checkers of the registries' classes.
 
-    python tools/stubs.py            writes the file
-    python tools/stubs.py --check    fails if it is not what would be written
+python tools/stubs.py            writes the file
+python tools/stubs.py --check    fails if it is not what would be written
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from forgetting import choices
 
 STUB = Path(__file__).parent.parent / "python" / "forgetting" / "registry.pyi"
 
-HEAD = '''\
+HEAD = """\
 # Written by tools/stubs.py from the registries of the core: do not edit.
 # ruff: noqa: E501 (headers as they stand in the rule files)
 
@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike
 
 from ._core import Evidence
 from .choices import ForgettingFactor, Rate, Rule, Weighting
-'''
+"""
 
 TYPES = {
     "real": "float",
@@ -48,6 +48,8 @@ def parameter(entry: Mapping[str, Any]) -> str:
     default = entry["default"]
     if default is None:
         return f"{entry['name']}: {annotation} | None = None"
+    if kind == "whole":
+        default = int(default)
     written = f'"{default}"' if isinstance(default, str) else repr(default)
     return f"{entry['name']}: {annotation} = {written}"
 
@@ -88,7 +90,7 @@ def stub() -> str:
     """The whole file."""
     lines = [HEAD]
     names = sorted(choices.CLASSES)
-    lines += ["__all__: list[str]", ""]
+    lines += ["__all__ = [", *(f'    "{name}",' for name in names), "]", ""]
     for name in names:
         lines += [*stub_of(choices.CLASSES[name]), ""]
     return "\n".join(lines).rstrip() + "\n"

@@ -5,9 +5,25 @@ from typing import Any, Literal, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from typing_extensions import disjoint_base
 
 from .choices import Rule, Weighting
 from .health import Health
+
+__all__ = [
+    "RLS",
+    "SKIPPED",
+    "Evidence",
+    "InformationWindow",
+    "InvalidInput",
+    "NumericalRange",
+    "Run",
+    "Update",
+    "__version__",
+    "rates",
+    "rules",
+    "weightings",
+]
 
 __version__: str
 SKIPPED: dict[int, str | None]
@@ -88,7 +104,7 @@ class RLS:
         targets: int = 1,
         initial_covariance: ArrayLike | None = None,
         initial_theta: ArrayLike | None = None,
-        dtype: Literal["float64", "float32"] = "float64",
+        dtype: str = "float64",
         monitor: bool = False,
     ) -> RLS: ...
     @property
@@ -131,6 +147,7 @@ class RLS:
     def __copy__(self) -> RLS: ...
     def __deepcopy__(self, _memo: Any) -> RLS: ...
 
+@disjoint_base
 class InformationWindow:
     def __new__(cls, parameters: int, window: int, rows: int = 1) -> InformationWindow: ...
     def add(self, phi: ArrayLike) -> None: ...

@@ -163,7 +163,7 @@ WEIGHTINGS: dict[str, type[Weighting]] = {
 CLASSES: dict[str, type[Choice]] = {
     kind.__name__: kind
     for registry in (RULES, RATES, WEIGHTINGS)
-    for kind in registry.values()  # type: ignore[attr-defined]
+    for kind in registry.values()
 }
 
 AnyChoice = TypeVar("AnyChoice", bound=Choice)

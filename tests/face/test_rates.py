@@ -124,9 +124,11 @@ def test_what_may_stand_for_a_factor(given):
 def test_what_is_refused_names_the_parameter():
     with pytest.raises(fg.InvalidInput, match="rate = 'fortesque', allowed: constant, "):
         fg.rate("fortesque")
-    with pytest.raises(fg.InvalidInput, match="rate fortescue: .*'window'; its parameters: memory"):
+    with pytest.raises(
+        fg.InvalidInput, match=r"rate fortescue: .*'window'; its parameters: memory"
+    ):
         fg.rate("fortescue", window=3)
-    with pytest.raises(fg.InvalidInput, match=r"forgetting_factor = Fortescue, allowed: .*\(\.\.\."):
+    with pytest.raises(fg.InvalidInput, match=r"factor = Fortescue, allowed: .*\(\.\.\."):
         fg.Exponential(fg.Fortescue)
     refused = {
         "largest = 0.5, allowed": fg.Fortescue(smallest=0.9, largest=0.5),

@@ -77,7 +77,7 @@ def test_one_outlier_moves_no_parameter_beyond_the_bound(rule, weighting, limit)
         bound = limit * np.sqrt(np.diag(largest) * spread)
         moved = np.abs(shot.theta - est.theta)
         assert (moved <= bound[:, None]).all()
-        assert moved.max() > 0.0 or size > 1e9
+        assert moved.max() > 0.0 or abs(size) > 1e3
 
 
 def test_without_a_weighting_an_outlier_moves_the_estimate_without_bound():
@@ -112,9 +112,9 @@ def test_rates_see_the_clipped_error(about):
 def test_what_is_refused_names_the_parameter():
     with pytest.raises(fg.InvalidInput, match="weighting = 'hubert', allowed: equal, huber"):
         fg.weighting("hubert")
-    with pytest.raises(fg.InvalidInput, match="weighting = \"hubert\""):
+    with pytest.raises(fg.InvalidInput, match='weighting = "hubert"'):
         fg.RLS(1, weighting="hubert")
-    with pytest.raises(fg.InvalidInput, match="weighting huber: .*'c'; its parameters: threshold"):
+    with pytest.raises(fg.InvalidInput, match=r"weighting huber: .*'c'; its parameters: threshold"):
         fg.weighting("huber", c=1.0)
     for bad in (0.0, -1.0, float("nan"), float("inf")):
         with pytest.raises(fg.InvalidInput, match="threshold = "):
