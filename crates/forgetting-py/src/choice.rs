@@ -17,9 +17,14 @@ use std::sync::Arc;
 pub enum Given {
     Real(f64),
     Word(String),
-    Matrix { rows: usize, columns: usize, elements: Box<dyn Fn(usize) -> f64 + Send + Sync> },
+    Matrix {
+        rows: usize,
+        columns: usize,
+        elements: Box<dyn Fn(usize) -> f64 + Send + Sync>,
+    },
     Choice(Choice),
-    Function(Arc<dyn MatrixFunction>),
+    /// a callable, and the same as a function of the core
+    Function(Py<PyAny>, Arc<dyn MatrixFunction>),
 }
 
 /// A name and its parameters.
@@ -61,10 +66,10 @@ impl Choice {
         Ok(Self { name, parameters: given })
     }
 
-    /// The callable given for the parameter `name`, if one was.
-    pub fn callable<'py>(&self, py: Python<'py>, name: &str) -> Option<Bound<'py, PyAny>> {
+    /// The function given for the parameter `name`, if one was.
+    pub fn function(&self, name: &str) -> Option<&Py<PyAny>> {
         self.parameters.iter().find(|(known, _)| known == name).and_then(|(_, value)| match value {
-            Given::Function(function) => Some(callable::python(py, function)),
+            Given::Function(callable, _) => Some(callable),
             _ => None,
         })
     }
@@ -111,7 +116,7 @@ impl Values for Choice {
             Given::Matrix { rows, columns, elements } => {
                 Value::Matrix { rows: *rows, columns: *columns, elements }
             }
-            Given::Function(function) => Value::Function(function),
+            Given::Function(_, function) => Value::Function(function),
             Given::Choice(inner) => Value::Choice { name: &inner.name, values: inner },
         })
     }
@@ -128,7 +133,8 @@ fn read_value(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Given> {
         return Choice::read(name, value).map(Given::Choice);
     }
     if value.is_callable() {
-        return Ok(Given::Function(Arc::new(Callable::new(name, value))));
+        let function = Arc::new(Callable::new(name, value));
+        return Ok(Given::Function(value.clone().unbind(), function));
     }
     let shape = shape_of(name, value)?;
     let elements = with_slice::<f64, _>(name, value, |elements| Ok(elements.to_vec()))?;
@@ -165,7 +171,11 @@ pub fn write_value<'py>(py: Python<'py>, value: Value<'_>) -> PyResult<Bound<'py
             // a list compares and prints as it was given
             crate::arrays::shaped(py, elements, shape)?.call_method0("tolist")
         }
-        Value::Function(function) => Ok(callable::python(py, function)),
+        Value::Function(function) => {
+            let matrix = || Callable::origin(function);
+            let origin = callable::origin(function).or_else(matrix);
+            Ok(origin.map_or_else(|| py.None().into_bound(py), |origin| origin.bind(py).clone()))
+        }
         Value::Choice { name, values } => {
             write_choice(py, name, |each| values.each(each)).map(Bound::into_any)
         }

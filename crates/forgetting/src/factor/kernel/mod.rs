@@ -88,7 +88,7 @@ pub fn agee_turner<T: Real>(columns: &mut [T], diagonal: &mut [T], x: &mut [T], 
         }
         diagonal[j] = after;
         // in this order: c alone may be large, and its product with D overflow
-        c = c * (before * inverse);
+        c *= before * inverse;
     }
 }
 
