@@ -2,6 +2,8 @@
 
 use crate::arrays::{shaped, Number};
 use crate::errors::keep_exception;
+use crate::function::Callable;
+use forgetting::function::MatrixFunction;
 use forgetting::parameter::{Kind, Parameter, Value};
 use forgetting::rates::Function;
 use forgetting::rules::Forgetting;
@@ -10,6 +12,7 @@ use forgetting::{Dynamic, Error};
 use pyo3::prelude::*;
 use pyo3::types::PyFloat;
 use std::any::Any;
+use std::sync::Arc;
 
 /// Whether the estimator runs Python code in the middle of a sample.
 ///
@@ -17,22 +20,26 @@ use std::any::Any;
 pub fn calls_python<T: Number>(estimator: &AnyEstimator<T>) -> bool {
     let (rule, rate) = (estimator.rule(), estimator.rate());
     let has = |parameters: &[Parameter], kind| parameters.iter().any(|p| p.kind == kind);
+    let parameters = rule.about().parameters;
     has(rate.about().parameters, Kind::Function)
-        || has(rule.about().parameters, Kind::Function)
-        || has(rule.about().parameters, Kind::Rule) && {
+        || has(parameters, Kind::Function)
+        || has(parameters, Kind::Rule) && {
             let mut found = false;
             rule.describe(&mut |_, value| found |= is_function(value));
             found
         }
 }
 
-/// Whether the value is a function, or a rule that has one.
 fn is_function(value: Value<'_>) -> bool {
-    let mut found = matches!(value, Value::Function(_));
-    if let Value::Choice { values, .. } = value {
-        values.each(&mut |_, value| found |= is_function(value));
+    match value {
+        Value::Function(_) => true,
+        Value::Choice { values, .. } => {
+            let mut found = false;
+            values.each(&mut |_, value| found |= is_function(value));
+            found
+        }
+        _ => false,
     }
-    found
 }
 
 /// What a callable rate is told of a sample, before the sample is used.
@@ -101,11 +108,14 @@ pub fn rate<T: Number>(callable: &Bound<'_, PyAny>) -> Function<Dynamic<T>> {
         .with_origin(callable.clone().unbind())
 }
 
-/// The callable that a function of the core was made from.
-pub fn origin(function: &(dyn Any + Send + Sync)) -> Option<&Py<PyAny>> {
-    let double = function.downcast_ref::<Function<Dynamic<f64>>>().map(Function::origin);
-    let single = || function.downcast_ref::<Function<Dynamic<f32>>>().map(Function::origin);
-    double.or_else(single)?.downcast_ref()
+/// The callable that a function of the core was made from; None if it was not.
+pub fn python<'py>(py: Python<'py>, function: &(dyn Any + Send + Sync)) -> Bound<'py, PyAny> {
+    let double = || function.downcast_ref::<Function<Dynamic<f64>>>()?.origin().downcast_ref();
+    let single = || function.downcast_ref::<Function<Dynamic<f32>>>()?.origin().downcast_ref();
+    let matrix = || function.downcast_ref::<Arc<dyn MatrixFunction>>()?.as_any().downcast_ref();
+    let rate: Option<&Py<PyAny>> = double().or_else(single);
+    let rule = matrix().map(|callable: &Callable| callable.object(py));
+    rate.map(|callable| callable.bind(py).clone()).or(rule).unwrap_or(py.None().into_bound(py))
 }
 
 fn ask<T: Number>(
@@ -124,6 +134,6 @@ fn ask<T: Number>(
     };
     Python::attach(|py| {
         let answer = callable.call1(py, (seen,)).and_then(|answer| answer.extract::<f64>(py));
-        answer.map(T::from_f64).map_err(|error| keep_exception(error, "forgetting_factor"))
+        answer.map(T::from_f64).map_err(keep_exception)
     })
 }

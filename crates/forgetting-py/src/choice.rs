@@ -17,14 +17,9 @@ use std::sync::Arc;
 pub enum Given {
     Real(f64),
     Word(String),
-    Matrix {
-        rows: usize,
-        columns: usize,
-        elements: Box<dyn Fn(usize) -> f64 + Send + Sync>,
-    },
+    Matrix { rows: usize, columns: usize, elements: Box<dyn Fn(usize) -> f64 + Send + Sync> },
     Choice(Choice),
-    /// a callable, and the same as a function of the core
-    Function(Py<PyAny>, Arc<dyn MatrixFunction>),
+    Function(Arc<dyn MatrixFunction>),
 }
 
 /// A name and its parameters.
@@ -66,10 +61,10 @@ impl Choice {
         Ok(Self { name, parameters: given })
     }
 
-    /// The function given for the parameter `name`, if one was.
-    pub fn function(&self, name: &str) -> Option<&Py<PyAny>> {
+    /// The callable given for the parameter `name`, if one was.
+    pub fn callable<'py>(&self, py: Python<'py>, name: &str) -> Option<Bound<'py, PyAny>> {
         self.parameters.iter().find(|(known, _)| known == name).and_then(|(_, value)| match value {
-            Given::Function(callable, _) => Some(callable),
+            Given::Function(function) => Some(callable::python(py, function)),
             _ => None,
         })
     }
@@ -116,7 +111,7 @@ impl Values for Choice {
             Given::Matrix { rows, columns, elements } => {
                 Value::Matrix { rows: *rows, columns: *columns, elements }
             }
-            Given::Function(_, function) => Value::Function(function),
+            Given::Function(function) => Value::Function(function),
             Given::Choice(inner) => Value::Choice { name: &inner.name, values: inner },
         })
     }
@@ -133,8 +128,7 @@ fn read_value(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Given> {
         return Choice::read(name, value).map(Given::Choice);
     }
     if value.is_callable() {
-        let function = Arc::new(Callable::new(name, value));
-        return Ok(Given::Function(value.clone().unbind(), function));
+        return Ok(Given::Function(Arc::new(Callable::new(name, value))));
     }
     let shape = shape_of(name, value)?;
     let elements = with_slice::<f64, _>(name, value, |elements| Ok(elements.to_vec()))?;
@@ -171,11 +165,7 @@ pub fn write_value<'py>(py: Python<'py>, value: Value<'_>) -> PyResult<Bound<'py
             // a list compares and prints as it was given
             crate::arrays::shaped(py, elements, shape)?.call_method0("tolist")
         }
-        Value::Function(function) => {
-            let matrix = || Callable::origin(function);
-            let origin = callable::origin(function).or_else(matrix);
-            Ok(origin.map_or_else(|| py.None().into_bound(py), |origin| origin.bind(py).clone()))
-        }
+        Value::Function(function) => Ok(callable::python(py, function)),
         Value::Choice { name, values } => {
             write_choice(py, name, |each| values.each(each)).map(Bound::into_any)
         }

@@ -86,8 +86,8 @@ fn make_rate<T: Number>(
 ) -> PyResult<AnyRate<Dynamic<T>>> {
     let known: Option<&[Parameter]> =
         RATES.iter().find(|about| about.name == rate.name).map(|about| about.parameters);
-    if let (Some(function), Some(rule)) = (rate.function("function"), rule) {
-        return Ok(AnyRate::Function(callable::rate(function.bind(rule.py()))));
+    if let Some(asked) = rule.and_then(|rule| rate.callable(rule.py(), "function")) {
+        return Ok(AnyRate::Function(callable::rate(&asked)));
     }
     rate.make("rate", known, |name, values| AnyRate::named(name, values, memory))
 }

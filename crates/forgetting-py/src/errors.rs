@@ -26,9 +26,9 @@ thread_local! {
 }
 
 /// The error that stands for an exception within the crate.
-pub fn keep_exception(exception: PyErr, parameter: &'static str) -> Error {
+pub fn keep_exception(exception: PyErr) -> Error {
     EXCEPTION.set(Some(exception));
-    Error::Function { parameter }
+    Error::Function { parameter: "a function of yours" }
 }
 
 /// The exception for `error`.

@@ -9,7 +9,6 @@ use numpy::{PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use std::any::Any;
-use std::sync::Arc;
 
 /// A callable that takes arrays and returns an array.
 #[derive(Debug)]
@@ -24,10 +23,9 @@ impl Callable {
         Self { parameter: parameter.into(), callable: callable.clone().unbind() }
     }
 
-    /// The callable behind the value of a parameter, if it is one.
-    pub fn origin(function: &(dyn Any + Send + Sync)) -> Option<&Py<PyAny>> {
-        let function = function.downcast_ref::<Arc<dyn MatrixFunction>>()?;
-        function.as_any().downcast_ref::<Self>().map(|function| &function.callable)
+    /// The callable itself.
+    pub fn object<'py>(&self, py: Python<'py>) -> Bound<'py, PyAny> {
+        self.callable.bind(py).clone()
     }
 
     fn evaluate(
@@ -64,8 +62,7 @@ impl MatrixFunction for Callable {
         shape: (usize, usize),
         put: &mut dyn FnMut(usize, f64),
     ) -> Result<(), Error> {
-        Python::attach(|py| self.evaluate(py, arguments, shape, put))
-            .map_err(|exception| keep_exception(exception, "a function of yours"))
+        Python::attach(|py| self.evaluate(py, arguments, shape, put)).map_err(keep_exception)
     }
 
     fn as_any(&self) -> &dyn Any {
