@@ -102,7 +102,7 @@ impl<M: Memory> Efra<M> {
     }
 
     /// Refuses a forgetting factor so small that P could leave the range at the next sample.
-    #[inline(always)]
+    #[inline]
     fn check_growth(&self, growth: M::Real, n: usize) -> Result<(), Error> {
         let four = M::Real::from_f64(4.0);
         let most = self.increase + growth * (growth / (four * self.saturation));

@@ -116,7 +116,7 @@ impl<M: Memory> MatrixForgetting<M> {
     }
 
     /// bᴺ for the eigenvalue r of R.
-    #[inline(always)]
+    #[inline]
     fn share(&self, r: M::Real) -> M::Real {
         let base = match self.shift {
             None => M::Real::ONE - self.information / r,
@@ -126,7 +126,7 @@ impl<M: Memory> MatrixForgetting<M> {
     }
 
     /// Forgets along eigenvector i.
-    #[inline(always)]
+    #[inline]
     fn forget_along(&self, spectrum: &mut Spectrum<M>, step: &mut Step<'_, '_, M>, i: usize) {
         let r = spectrum.information()[i];
         let lost = (M::Real::ONE - step.forgetting_factor) * self.share(r);
@@ -172,7 +172,7 @@ impl<M: Memory> Forgetting<M> for MatrixForgetting<M> {
         Spectrum::new(memory)
     }
 
-    #[inline(always)]
+    #[inline]
     fn forget(
         &self,
         spectrum: &mut Spectrum<M>,
