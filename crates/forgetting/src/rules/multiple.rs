@@ -114,10 +114,9 @@ impl<M: Memory> Multiple<M> {
             if !(one >= 1.0 && libm::trunc(one) == one && end <= n as f64) {
                 return Err(refuse(BLOCKS.name, b, one, "whole numbers >= 1 that add up to n"));
             }
-            let lambda = M::Real::from_f64(factor(b));
-            if !(lambda > M::Real::ZERO && lambda <= M::Real::ONE) {
-                return Err(refuse(FACTORS.name, b, factor(b), FACTORS.range.words));
-            }
+            let lambda = FACTORS
+                .convert(factor(b))
+                .map_err(|_| refuse(FACTORS.name, b, factor(b), FACTORS.range.words))?;
             sizes.as_mut()[b] = M::Real::from_f64(one);
             factors.as_mut()[b] = lambda;
         }
