@@ -68,13 +68,13 @@ impl<M: Memory> Blocks<M> {
     }
 
     /// How many blocks there are.
-    #[inline(always)]
+    #[inline]
     pub fn count(&self) -> usize {
         self.count
     }
 
     /// The places of each block's parameters.
-    #[inline(always)]
+    #[inline]
     pub fn ranges(&self) -> impl Iterator<Item = Range<usize>> + '_ {
         self.sizes.as_ref()[..self.count].iter().scan(0, |start, size| {
             let range = *start..*start + size.to_f64() as usize;

@@ -12,7 +12,7 @@ use crate::{Error, Memory, Real};
 ///
 /// # Errors
 /// [`Error::Range`] when P would overflow; P is as it was.
-#[inline(always)]
+#[inline]
 pub fn forget_along_sample<M: Memory>(step: &mut Step<'_, '_, M>) -> Result<usize, Error> {
     forget_along_rows(step, M::Real::ZERO)
 }
@@ -21,7 +21,7 @@ pub fn forget_along_sample<M: Memory>(step: &mut Step<'_, '_, M>) -> Result<usiz
 ///
 /// # Errors
 /// [`Error::Range`] when P would overflow; P is as it was.
-#[inline(always)]
+#[inline]
 pub fn forget_along_rows<M: Memory>(
     step: &mut Step<'_, '_, M>,
     least: M::Real,
@@ -44,7 +44,7 @@ pub fn forget_along_rows<M: Memory>(
     Ok(rank)
 }
 
-#[inline(always)]
+#[inline]
 fn forget_along_row<M: Memory>(
     step: &mut Step<'_, '_, M>,
     weight: M::Real,

@@ -155,7 +155,7 @@ where
     ///
     /// # Errors
     /// [`Error`] names what was wrong; the estimator is as it was, bit for bit.
-    #[inline(always)]
+    #[inline]
     pub fn update(&mut self, phi: &[M::Real], y: &[M::Real]) -> Result<Update<'_, M::Real>, Error> {
         self.update_weighted(phi, y, Noise::Unit)
     }
@@ -164,7 +164,7 @@ where
     ///
     /// # Errors
     /// [`Error`] names what was wrong; the estimator is as it was, bit for bit.
-    #[inline(always)]
+    #[inline]
     pub fn update_weighted(
         &mut self,
         phi: &[M::Real],
@@ -224,13 +224,13 @@ where
     }
 
     /// θ, m x n numbers, one target after the other.
-    #[inline(always)]
+    #[inline]
     pub fn theta(&self) -> &[M::Real] {
         self.theta.as_ref()
     }
 
     /// P, factored.
-    #[inline(always)]
+    #[inline]
     pub fn factor(&self) -> &Factor<M> {
         &self.factor
     }

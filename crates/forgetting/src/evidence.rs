@@ -35,7 +35,7 @@ pub struct Evidence<'a, 'b, M: Memory> {
 
 impl<M: Memory> Evidence<'_, '_, M> {
     /// ‖e‖² over the rows, of the target where it is largest.
-    #[inline(always)]
+    #[inline]
     pub fn largest_squared_error(&self) -> M::Real {
         if self.targets == 1 {
             return self.squared_error;
@@ -74,7 +74,7 @@ pub(crate) struct Known<T> {
 
 impl<T: Real> Known<T> {
     /// Refuses a whitened sample that is too large to compute with.
-    #[inline(always)]
+    #[inline]
     pub fn of<M: Memory<Real = T>>(memory: M, sample: &Sample<'_, M>) -> Result<Self, Error> {
         let (squared_regressors, sum) = (sample.squared_regressors(), sample.squared_error());
         if !(squared_regressors <= T::CEILING) {
@@ -98,7 +98,7 @@ impl<T: Real> Known<T> {
     }
 
     /// Finds what `needs` names, with the P before forgetting.
-    #[inline(always)]
+    #[inline]
     pub fn find<M: Memory<Real = T>>(
         &mut self,
         needs: Needs,
@@ -124,7 +124,7 @@ impl<T: Real> Known<T> {
 
     /// Γ ← Γ/w with the weight of the sample; leaves in `seen` the errors that a rate sees, w
     /// times the whitened ones.
-    #[inline(always)]
+    #[inline]
     pub fn weigh<M: Memory<Real = T>, W: Weighting<M>>(
         &mut self,
         weighting: &W,
@@ -159,13 +159,13 @@ impl<T: Real> Known<T> {
     }
 
     /// ‖ē‖² over rows and targets of the sample as it is used, weighted by √w.
-    #[inline(always)]
+    #[inline]
     pub fn used_error(&self) -> T {
         self.squared_error / self.weight * T::from_f64(self.targets as f64)
     }
 
     /// Makes every statistic small enough to be squared.
-    #[inline(always)]
+    #[inline]
     fn cap(&mut self) {
         let Self { squared_error, leverage, normalized_error, .. } = self;
         for statistic in [squared_error, leverage, normalized_error] {
@@ -177,7 +177,7 @@ impl<T: Real> Known<T> {
     }
 
     /// The same with a look at the sample and at P.
-    #[inline(always)]
+    #[inline]
     pub fn evidence<'a, 'b, M: Memory<Real = T>>(
         &self,
         sample: &'a Sample<'b, M>,
@@ -200,7 +200,7 @@ impl<T: Real> Known<T> {
     }
 }
 
-#[inline(always)]
+#[inline]
 fn mean<T: Real>(sum: T, count: usize) -> T {
     if count == 1 {
         sum

@@ -50,7 +50,7 @@ impl<M: Memory> Intake<M> {
     ///
     /// # Errors
     /// [`Error`] names what does not fit, is not finite or is too large.
-    #[inline(always)]
+    #[inline]
     pub fn take(
         &mut self,
         memory: M,
@@ -81,7 +81,7 @@ impl<M: Memory> Intake<M> {
 }
 
 /// Applies Γ = `noise`; a full one is left factored in `root`.
-#[inline(always)]
+#[inline]
 pub fn whiten<M: Memory>(
     sample: &mut Sample<'_, M>,
     noise: Noise<'_, M::Real>,

@@ -76,7 +76,7 @@ pub trait Real:
     fn is_finite(self) -> bool;
 
     /// Runs a loop over numbers of this type, with the instructions that suit it best.
-    #[inline(always)]
+    #[inline(never)]
     fn compute<K: Kernel<Self>>(kernel: K) -> K::Output {
         kernel.run::<Self::Lanes, 2>()
     }

@@ -16,7 +16,7 @@ pub struct Sample<'a, M: Memory> {
 
 impl<'a, M: Memory> Sample<'a, M> {
     /// The sample of `memory.rows()` rows in these two buffers.
-    #[inline(always)]
+    #[inline]
     pub fn new(memory: M, regressors: &'a mut [M::Real], errors: &'a mut [M::Real]) -> Self {
         Self { memory, rows: memory.rows(), regressors, errors }
     }
@@ -27,46 +27,46 @@ impl<'a, M: Memory> Sample<'a, M> {
     }
 
     /// Rows still in use.
-    #[inline(always)]
+    #[inline]
     pub fn rows(&self) -> usize {
         self.rows
     }
 
     /// Row i of φ̄, n numbers.
-    #[inline(always)]
+    #[inline]
     pub fn row(&self, i: usize) -> &[M::Real] {
         let n = self.memory.parameters();
         &self.regressors[i * n..(i + 1) * n]
     }
 
     /// Row i of ē, one number a target.
-    #[inline(always)]
+    #[inline]
     pub fn error(&self, i: usize) -> &[M::Real] {
         let m = self.memory.targets();
         &self.errors[i * m..(i + 1) * m]
     }
 
     /// All rows of φ̄ still in use, row by row.
-    #[inline(always)]
+    #[inline]
     pub fn regressors(&self) -> &[M::Real] {
         &self.regressors[..self.rows * self.memory.parameters()]
     }
 
     /// All rows of ē still in use, row by row.
-    #[inline(always)]
+    #[inline]
     pub fn errors(&self) -> &[M::Real] {
         &self.errors[..self.rows * self.memory.targets()]
     }
 
     /// ‖φ̄‖² (Frobenius).
-    #[inline(always)]
+    #[inline]
     pub fn squared_regressors(&self) -> M::Real {
         dot(self.regressors(), self.regressors())
     }
 
     /// The length of the longest row of φ̄: its largest singular value, once the rows are
     /// orthogonal.
-    #[inline(always)]
+    #[inline]
     pub fn longest_row(&self) -> M::Real {
         let squared = (0..self.rows)
             .fold(M::Real::ZERO, |longest, i| longest.max(dot(self.row(i), self.row(i))));
@@ -74,13 +74,13 @@ impl<'a, M: Memory> Sample<'a, M> {
     }
 
     /// ‖ē‖² over rows and targets.
-    #[inline(always)]
+    #[inline]
     pub fn squared_error(&self) -> M::Real {
         dot(self.errors(), self.errors())
     }
 
     /// Multiplies the sample by c: Γ ← Γ/c².
-    #[inline(always)]
+    #[inline]
     pub fn scale(&mut self, c: M::Real) {
         for x in self.regressors.iter_mut().chain(self.errors.iter_mut()) {
             *x *= c;

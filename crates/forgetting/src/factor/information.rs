@@ -15,7 +15,7 @@ pub struct Measured<T> {
 impl<M: Memory> Factor<M> {
     /// P⁻¹ ← P⁻¹ + fᵀf for n numbers `f`; leaves P·fᵀ (with the P of before, that is a times the
     /// gain) in `gain`.
-    #[inline(always)]
+    #[inline]
     pub fn add_information(&mut self, f: &[M::Real], gain: &mut [M::Real]) -> Measured<M::Real> {
         let (leverage, variance) =
             kernel::bierman(self.columns.as_mut(), self.diagonal.as_mut(), f, gain);
@@ -23,7 +23,7 @@ impl<M: Memory> Factor<M> {
     }
 
     /// f·P·fᵀ for n numbers `f`.
-    #[inline(always)]
+    #[inline]
     pub fn leverage(&self, f: &[M::Real]) -> M::Real {
         kernel::leverage(self.columns.as_ref(), self.diagonal.as_ref(), f)
     }
@@ -31,13 +31,13 @@ impl<M: Memory> Factor<M> {
     /// D^(−1/2)·U⁻¹·fᵀ in place of `f`: its squared length is f·P⁻¹·fᵀ.
     ///
     /// Gives the vector without the square roots of D; divide products of elements by D.
-    #[inline(always)]
+    #[inline]
     pub fn solve(&self, f: &mut [M::Real]) {
         kernel::solve(self.columns.as_ref(), f);
     }
 
     /// f·P⁻¹·fᵀ, the information that P⁻¹ holds along `f`, by one triangular solve in `work`.
-    #[inline(always)]
+    #[inline]
     pub fn information_along(&self, f: &[M::Real], work: &mut [M::Real]) -> M::Real {
         work.copy_from_slice(f);
         self.solve(work);
@@ -46,7 +46,7 @@ impl<M: Memory> Factor<M> {
     }
 
     /// x ← D^(1/2)·Uᵀ·x: the squared length is then xᵀ·P·x. O(n²/2).
-    #[inline(always)]
+    #[inline]
     pub fn apply_root_transposed(&self, x: &mut [M::Real]) {
         kernel::multiply_transposed(self.columns.as_ref(), x);
         for (x, &d) in x.iter_mut().zip(self.diagonal.as_ref()) {
@@ -55,7 +55,7 @@ impl<M: Memory> Factor<M> {
     }
 
     /// x ← U·D^(1/2)·x, with the root of which P is the square. O(n²/2).
-    #[inline(always)]
+    #[inline]
     pub fn apply_root(&self, x: &mut [M::Real]) {
         for (x, &d) in x.iter_mut().zip(self.diagonal.as_ref()) {
             *x *= d.sqrt();

@@ -68,7 +68,7 @@ impl<T: Real> Averages<T> {
     pub const START: Self = Self { fast: T::ZERO, slow: T::ZERO };
 
     /// With one more number `x`, of sample number `samples` of a problem of n parameters.
-    #[inline(always)]
+    #[inline]
     pub fn with(mut self, x: T, memories: &Memories<T>, n: usize, samples: u64) -> Self {
         let (n, count) = (T::from_f64(n as f64), T::from_f64(samples as f64 + 1.0));
         self.fast += (x - self.fast) / (memories.short * n).min(count);

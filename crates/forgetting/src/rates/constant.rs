@@ -84,7 +84,7 @@ impl<M: Memory> Rate<M> for Constant<M> {
 
     fn start(&self, _: M) {}
 
-    #[inline(always)]
+    #[inline]
     fn forgetting_factor(&self, (): &(), _: &Evidence<'_, '_, M>) -> Result<M::Real, Error> {
         Ok(self.forgetting_factor)
     }

@@ -198,7 +198,7 @@ impl<M: Memory> Rate<M> for ExactGradient<M> {
         }
     }
 
-    #[inline(always)]
+    #[inline]
     fn forgetting_factor(
         &self,
         state: &Self::State,

@@ -142,7 +142,7 @@ impl<M: Memory> FTest<M> {
 }
 
 /// xᵀA⁻¹y with A⁻¹ = LᵀL, of which `root` holds the lower triangle L row by row.
-#[inline(always)]
+#[inline]
 fn product<T: Real>(root: &[T], x: &[T], y: &[T]) -> T {
     let rows = root.chunks_exact(x.len()).enumerate().take(x.len());
     rows.fold(T::ZERO, |sum, (i, row)| {
@@ -195,7 +195,7 @@ impl<M: Memory> Rate<M> for FTest<M> {
         Past(memory.list(self.windows.long() * d + d * d))
     }
 
-    #[inline(always)]
+    #[inline]
     fn forgetting_factor(
         &self,
         past: &Self::State,

@@ -93,12 +93,12 @@ impl<M: Memory> Rate<M> for Fortescue<M> {
         Next(self.limits.largest())
     }
 
-    #[inline(always)]
+    #[inline]
     fn needs(&self) -> Needs {
         Needs::NormalizedError
     }
 
-    #[inline(always)]
+    #[inline]
     fn forgetting_factor(
         &self,
         next: &Self::State,
@@ -107,7 +107,7 @@ impl<M: Memory> Rate<M> for Fortescue<M> {
         Ok(self.limits.clip(next.0))
     }
 
-    #[inline(always)]
+    #[inline]
     fn learn(&self, next: &mut Self::State, evidence: &Evidence<'_, '_, M>, _: M::Real) {
         let total = self.memory * self.noise_variance;
         next.0 = self.limits.clip(M::Real::ONE - evidence.normalized_error / total);

@@ -114,7 +114,7 @@ impl<M: Memory> Rate<M> for Function<M> {
         Needs::NormalizedError
     }
 
-    #[inline(always)]
+    #[inline]
     fn forgetting_factor(
         &self,
         (): &(),

@@ -105,7 +105,7 @@ impl<T: Real> Slope<T> {
     }
 
     /// One more sample in the sums r and t, with `lambda`, and the model with them.
-    #[inline(always)]
+    #[inline]
     fn advance(&mut self, lambda: T, n: usize) -> Model<T> {
         let (one, two, n) = (T::ONE, T::from_f64(2.0), T::from_f64(n as f64));
         let (r_slope, t_slope) = (self.r, two * lambda * self.t);
@@ -140,7 +140,7 @@ impl<M: Memory> Gradient<M> {
     }
 
     /// The state with this sample.
-    #[inline(always)]
+    #[inline]
     fn next(&self, mut slope: Slope<M::Real>, evidence: &Evidence<'_, '_, M>) -> Slope<M::Real> {
         let n = evidence.factor.parameters();
         let squared = evidence.squared_error / M::Real::from_f64(evidence.rows as f64);
@@ -173,7 +173,7 @@ impl<M: Memory> Rate<M> for Gradient<M> {
         Slope::start(self.limits.largest())
     }
 
-    #[inline(always)]
+    #[inline]
     fn forgetting_factor(
         &self,
         slope: &Self::State,
@@ -182,7 +182,7 @@ impl<M: Memory> Rate<M> for Gradient<M> {
         Ok(self.next(*slope, evidence).last)
     }
 
-    #[inline(always)]
+    #[inline]
     fn learn(&self, slope: &mut Self::State, evidence: &Evidence<'_, '_, M>, _: M::Real) {
         *slope = self.next(*slope, evidence);
     }

@@ -52,19 +52,19 @@ impl<T: Real> Limits<T> {
     }
 
     /// The smallest λ.
-    #[inline(always)]
+    #[inline]
     pub fn smallest(&self) -> T {
         self.smallest
     }
 
     /// The largest λ.
-    #[inline(always)]
+    #[inline]
     pub fn largest(&self) -> T {
         self.largest
     }
 
     /// The nearest number in the interval; its smallest for what is not a number.
-    #[inline(always)]
+    #[inline]
     pub fn clip(&self, x: T) -> T {
         if x >= self.largest {
             self.largest

@@ -48,7 +48,7 @@ pub trait Rate<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
     fn start(&self, memory: M) -> Self::State;
 
     /// What the design uses beside the errors.
-    #[inline(always)]
+    #[inline]
     fn needs(&self) -> Needs {
         Needs::Errors
     }
@@ -66,7 +66,7 @@ pub trait Rate<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
     ) -> Result<M::Real, Error>;
 
     /// Takes note of the sample, after it was used with the factor `lambda`.
-    #[inline(always)]
+    #[inline]
     fn learn(&self, _: &mut Self::State, _: &Evidence<'_, '_, M>, lambda: M::Real) {
         let _ = lambda;
     }
@@ -147,14 +147,14 @@ macro_rules! registry {
                 }
             }
 
-            #[inline(always)]
+            #[inline]
             fn needs(&self) -> Needs {
                 match self {
                     $($(#[$only])* Self::$Rate(rate) => rate.needs(),)*
                 }
             }
 
-            #[inline(always)]
+            #[inline]
             fn forgetting_factor(
                 &self,
                 state: &Self::State,
@@ -168,7 +168,7 @@ macro_rules! registry {
                 }
             }
 
-            #[inline(always)]
+            #[inline]
             fn learn(
                 &self,
                 state: &mut Self::State,

@@ -127,12 +127,12 @@ impl<M: Memory> Rate<M> for NoisePower<M> {
         Powers { errors: Averages::START, spreads: Averages::START, next }
     }
 
-    #[inline(always)]
+    #[inline]
     fn needs(&self) -> Needs {
         Needs::Leverage
     }
 
-    #[inline(always)]
+    #[inline]
     fn forgetting_factor(
         &self,
         powers: &Self::State,
@@ -141,7 +141,7 @@ impl<M: Memory> Rate<M> for NoisePower<M> {
         Ok(self.limits.clip(powers.next))
     }
 
-    #[inline(always)]
+    #[inline]
     fn learn(&self, powers: &mut Self::State, evidence: &Evidence<'_, '_, M>, _: M::Real) {
         let Evidence { squared_error, leverage, samples, factor, .. } = *evidence;
         let (n, p) = (factor.parameters(), M::Real::from_f64(evidence.rows as f64));

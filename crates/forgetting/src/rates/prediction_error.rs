@@ -79,12 +79,12 @@ impl<M: Memory> Rate<M> for PredictionError<M> {
 
     fn start(&self, _: M) {}
 
-    #[inline(always)]
+    #[inline]
     fn needs(&self) -> Needs {
         Needs::Leverage
     }
 
-    #[inline(always)]
+    #[inline]
     fn forgetting_factor(
         &self,
         (): &(),

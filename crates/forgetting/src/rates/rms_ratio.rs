@@ -92,7 +92,7 @@ impl<M: Memory> RmsRatio<M> {
 }
 
 /// 1/(1 + η g), or 1 when g is not positive.
-#[inline(always)]
+#[inline]
 pub(super) fn factor<T: Real>(sensitivity: T, g: T) -> T {
     if g > T::ZERO {
         T::ONE / (T::ONE + sensitivity * g)
@@ -119,7 +119,7 @@ impl<M: Memory> Rate<M> for RmsRatio<M> {
         Past(memory.list(self.windows.long()))
     }
 
-    #[inline(always)]
+    #[inline]
     fn forgetting_factor(
         &self,
         past: &Self::State,
@@ -138,7 +138,7 @@ impl<M: Memory> Rate<M> for RmsRatio<M> {
         Ok(self.limits.clip(lambda))
     }
 
-    #[inline(always)]
+    #[inline]
     fn learn(&self, past: &mut Self::State, evidence: &Evidence<'_, '_, M>, _: M::Real) {
         past.0.as_mut()[self.windows.place(evidence.samples)] = evidence.squared_error;
     }

@@ -112,7 +112,7 @@ impl<M: Memory> Rate<M> for Schedule<M> {
 
     fn start(&self, _: M) {}
 
-    #[inline(always)]
+    #[inline]
     fn forgetting_factor(
         &self,
         (): &(),

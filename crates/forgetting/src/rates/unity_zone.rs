@@ -75,7 +75,7 @@ impl<M: Memory> Rate<M> for UnityZone<M> {
 
     fn start(&self, _: M) {}
 
-    #[inline(always)]
+    #[inline]
     fn forgetting_factor(
         &self,
         (): &(),

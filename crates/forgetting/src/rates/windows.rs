@@ -64,38 +64,38 @@ impl Windows {
     }
 
     /// τ_n
-    #[inline(always)]
+    #[inline]
     pub fn short(&self) -> usize {
         self.short
     }
 
     /// τ_d
-    #[inline(always)]
+    #[inline]
     pub fn long(&self) -> usize {
         self.long
     }
 
     /// Where sample number `samples` is kept in a ring of τ_d places: over the oldest.
-    #[inline(always)]
+    #[inline]
     pub(super) fn place(&self, samples: u64) -> usize {
         (samples % self.long as u64) as usize
     }
 
     /// Whether the long window is full with sample number `samples`.
-    #[inline(always)]
+    #[inline]
     pub(super) fn full(&self, samples: u64) -> bool {
         samples + 1 >= self.long as u64
     }
 
     /// The places of the τ_n − 1 samples before the one at `place`.
-    #[inline(always)]
+    #[inline]
     pub(super) fn recent(&self, place: usize) -> impl Iterator<Item = usize> {
         let long = self.long;
         (1..self.short).map(move |age| (place + long - age) % long)
     }
 
     /// The places of the τ_d − 1 samples before the one at `place`.
-    #[inline(always)]
+    #[inline]
     pub(super) fn others(&self, place: usize) -> impl Iterator<Item = usize> {
         (0..self.long).filter(move |&other| other != place)
     }

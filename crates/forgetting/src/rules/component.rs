@@ -103,13 +103,13 @@ impl<M: Memory> Component<M> {
     }
 
     /// λ_b
-    #[inline(always)]
+    #[inline]
     fn factor(&self, block: usize, common: M::Real) -> M::Real {
         self.forgetting_factors.as_ref().map_or(common, |factors| factors.as_ref()[block])
     }
 
     /// The smallest λ_b.
-    #[inline(always)]
+    #[inline]
     fn smallest(&self, common: M::Real) -> M::Real {
         (0..self.blocks.count()).fold(M::Real::ONE, |least, b| least.min(self.factor(b, common)))
     }
@@ -141,7 +141,7 @@ impl<M: Memory> Forgetting<M> for Component<M> {
         BlockRoot { columns: memory.packed(), diagonal: memory.vector() }
     }
 
-    #[inline(always)]
+    #[inline]
     fn forget(&self, root: &mut BlockRoot<M>, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         let (factor, common) = (step.factor, step.forgetting_factor);
         let smallest = self.smallest(common);
@@ -175,7 +175,7 @@ impl<M: Memory> Forgetting<M> for Component<M> {
 }
 
 /// 1/λ − 1
-#[inline(always)]
+#[inline]
 fn growth<T: Real>(lambda: T) -> T {
     (T::ONE - lambda) / lambda
 }

@@ -152,7 +152,7 @@ impl<M: Memory, F: Forgetting<M>> Forgetting<M> for CovarianceResetting<M, F> {
         self.rule.is_bounded()
     }
 
-    #[inline(always)]
+    #[inline]
     fn forget(&self, state: &mut Self::State, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         let Step { factor, sample, forgetting_factor, work } = step;
         let seen = state.watch.look(&self.criterion, factor, sample, work.first.as_mut());

@@ -98,7 +98,7 @@ impl<M: Memory> Forgetting<M> for CyclicResetting<M> {
         self.information.rank() == self.information.parameters()
     }
 
-    #[inline(always)]
+    #[inline]
     fn forget(&self, cycle: &mut Cycle, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         let (lambda, n) = (step.forgetting_factor, step.factor.parameters());
         let rank = self.information.rank();

@@ -146,7 +146,7 @@ impl<M: Memory> Forgetting<M> for DataDependent<M> {
         }
     }
 
-    #[inline(always)]
+    #[inline]
     fn forget(&self, state: &mut Ellipsoid<M>, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         let bound = self.noise_bound * self.noise_bound;
         let margin = bound - state.squared_radius;
@@ -181,7 +181,7 @@ struct Terms<'a, T> {
 
 impl<'a, T: Real> Terms<'a, T> {
     /// Computed in `spread` (p x n) and `squares` (p x m).
-    #[inline(always)]
+    #[inline]
     fn of<M: Memory<Real = T>>(
         factor: &Factor<M>,
         sample: &Sample<'_, M>,

@@ -81,7 +81,7 @@ impl<M: Memory> Forgetting<M> for Directional<M> {
         self.threshold > M::Real::ZERO
     }
 
-    #[inline(always)]
+    #[inline]
     fn forget(&self, (): &mut (), mut step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         if !(step.sample.squared_regressors().sqrt() > self.threshold) {
             return Ok(Forgotten::skipped(Skip::DeadZone));

@@ -102,7 +102,7 @@ impl<M: Memory> Efra<M> {
     }
 
     /// Refuses a forgetting factor so small that P could leave the range at the next sample.
-    #[inline(always)]
+    #[inline]
     fn check_growth(&self, growth: M::Real, n: usize) -> Result<(), Error> {
         let four = M::Real::from_f64(4.0);
         let most = self.increase + growth * (growth / (four * self.saturation));
@@ -147,9 +147,7 @@ impl<M: Memory> Forgetting<M> for Efra<M> {
             step.factor.reserve(M::Real::ONE, total)?;
             for (i, &weight) in added.as_ref().iter().enumerate() {
                 if weight > M::Real::ZERO {
-                    let direction = step.work.gain.as_mut();
-                    direction.copy_from_slice(spectrum.vector(i));
-                    step.factor.add_covariance(direction, weight);
+                    spectrum.widen(i, weight, step.factor, step.work);
                     rank += 1;
                 }
             }

@@ -60,7 +60,7 @@ impl<M: Memory> Forgetting<M> for Exponential<M> {
 
     fn start(&self, _: M) {}
 
-    #[inline(always)]
+    #[inline]
     fn forget(&self, (): &mut (), step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         let lambda = step.forgetting_factor;
         if lambda >= M::Real::ONE {

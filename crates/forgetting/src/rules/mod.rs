@@ -38,19 +38,19 @@ pub struct Forgotten {
 
 impl Forgotten {
     /// F of this rank.
-    #[inline(always)]
+    #[inline]
     pub fn rank(rank: usize) -> Self {
         Self { rank, skipped: None, forgetting_factor: None }
     }
 
     /// F = 0, and nothing is learned from the sample either.
-    #[inline(always)]
+    #[inline]
     pub fn skipped(reason: Skip) -> Self {
         Self { rank: 0, skipped: Some(reason), forgetting_factor: None }
     }
 
     /// The same, done with this forgetting factor in place of the rate's.
-    #[inline(always)]
+    #[inline]
     pub fn with_factor(self, forgetting_factor: f64) -> Self {
         Self { forgetting_factor: Some(forgetting_factor), ..self }
     }
@@ -211,7 +211,7 @@ macro_rules! choice_of_rules {
                 }
             }
 
-            #[inline(always)]
+            #[inline]
             fn forget(
                 &self,
                 state: &mut Self::State,

@@ -81,7 +81,7 @@ impl<M: Memory> Forgetting<M> for ObliqueProjection<M> {
 
     fn start(&self, _: M) {}
 
-    #[inline(always)]
+    #[inline]
     fn forget(&self, (): &mut (), mut step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         if step.forgetting_factor >= M::Real::ONE {
             return Ok(Forgotten::rank(0));

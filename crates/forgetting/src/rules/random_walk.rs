@@ -77,7 +77,7 @@ impl<M: Memory> Forgetting<M> for RandomWalk<M> {
 
     fn start(&self, _: M) {}
 
-    #[inline(always)]
+    #[inline]
     fn forget(&self, (): &mut (), step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         step.factor.reserve(M::Real::ONE, self.trace)?;
         let direction = &mut step.work.first.as_mut()[..step.factor.parameters()];

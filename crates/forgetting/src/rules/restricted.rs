@@ -98,7 +98,7 @@ impl<M: Memory> Forgetting<M> for Restricted<M> {
         }
     }
 
-    #[inline(always)]
+    #[inline]
     fn forget(&self, pending: &mut Pending<M>, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         let rank = pending.forget(step.factor, step.work)?;
         pending.keep(step.sample, step.forgetting_factor);
@@ -108,7 +108,7 @@ impl<M: Memory> Forgetting<M> for Restricted<M> {
 
 impl<M: Memory> Pending<M> {
     /// Takes note of a sample: what the next one is to forget.
-    #[inline(always)]
+    #[inline]
     fn keep(&mut self, sample: &Sample<'_, M>, forgetting_factor: M::Real) {
         self.forgetting_factor = forgetting_factor;
         let regressors = self.regressors.as_mut();
@@ -125,7 +125,7 @@ impl<M: Memory> Pending<M> {
     }
 
     /// P ← P + (1 − λ)/λ · P Vᵀ (V P Vᵀ)⁻¹ V P; returns the number of directions.
-    #[inline(always)]
+    #[inline]
     fn forget(&self, factor: &mut Factor<M>, work: &mut Work<M>) -> Result<usize, Error> {
         let lambda = self.forgetting_factor;
         if !(lambda < M::Real::ONE && lambda > M::Real::ZERO) {

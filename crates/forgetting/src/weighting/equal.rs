@@ -46,7 +46,7 @@ impl<M: Memory> Weighting<M> for Equal<M> {
 
     fn describe(&self, _: &mut dyn FnMut(&'static str, Value<'_>)) {}
 
-    #[inline(always)]
+    #[inline]
     fn weight(&self, _: &Evidence<'_, '_, M>) -> M::Real {
         M::Real::ONE
     }

@@ -70,7 +70,7 @@ impl<M: Memory> Weighting<M> for Huber<M> {
         each(THRESHOLD.name, Value::Real(self.threshold.to_f64()));
     }
 
-    #[inline(always)]
+    #[inline]
     fn weight(&self, evidence: &Evidence<'_, '_, M>) -> M::Real {
         let r = evidence.largest_squared_error().sqrt();
         if r > self.threshold {

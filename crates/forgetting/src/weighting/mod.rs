@@ -30,7 +30,7 @@ pub trait Weighting<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
     fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>));
 
     /// What the weighting uses beside the errors.
-    #[inline(always)]
+    #[inline]
     fn needs(&self) -> Needs {
         Needs::Errors
     }
@@ -94,14 +94,14 @@ macro_rules! registry {
                 }
             }
 
-            #[inline(always)]
+            #[inline]
             fn needs(&self) -> Needs {
                 match self {
                     $(Self::$Weighting(weighting) => weighting.needs(),)*
                 }
             }
 
-            #[inline(always)]
+            #[inline]
             fn weight(&self, evidence: &Evidence<'_, '_, M>) -> M::Real {
                 match self {
                     $(Self::$Weighting(weighting) => weighting.weight(evidence),)*

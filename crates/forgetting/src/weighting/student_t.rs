@@ -67,7 +67,7 @@ impl<M: Memory> Weighting<M> for StudentT<M> {
         each(DEGREES.name, Value::Real(self.degrees.to_f64()));
     }
 
-    #[inline(always)]
+    #[inline]
     fn weight(&self, evidence: &Evidence<'_, '_, M>) -> M::Real {
         let (nu, p) = (self.degrees, M::Real::from_f64(evidence.rows as f64));
         let w = (nu + p) / (nu + evidence.largest_squared_error());
