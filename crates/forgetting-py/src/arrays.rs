@@ -74,6 +74,14 @@ pub fn with_slice<T: Number, R>(
     use_slice(unsafe { array.as_slice() }?)
 }
 
+/// The numbers of `values`, copied.
+///
+/// # Errors
+/// As for [`contiguous`].
+pub fn owned<T: Number>(name: &str, values: &Bound<'_, PyAny>) -> PyResult<Vec<T>> {
+    with_slice(name, values, |values: &[T]| Ok(values.to_vec()))
+}
+
 /// `values` as an array of this shape.
 pub fn shaped<'py, T: Element>(
     py: Python<'py>,

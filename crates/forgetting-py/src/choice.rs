@@ -2,6 +2,7 @@
 //! `name` and `parameters`.
 
 use crate::arrays::with_slice;
+use crate::callable;
 use crate::errors::{invalid, raise};
 use crate::function::Callable;
 use forgetting::function::MatrixFunction;
@@ -58,6 +59,14 @@ impl Choice {
             }
         }
         Ok(Self { name, parameters: given })
+    }
+
+    /// The callable given for the parameter `name`, if one was.
+    pub fn callable<'py>(&self, py: Python<'py>, name: &str) -> Option<Bound<'py, PyAny>> {
+        self.parameters.iter().find(|(known, _)| known == name).and_then(|(_, value)| match value {
+            Given::Function(function) => Some(callable::python(py, function)),
+            _ => None,
+        })
     }
 
     /// Refuses a parameter that is not among `known`, then makes what is chosen.
@@ -156,12 +165,7 @@ pub fn write_value<'py>(py: Python<'py>, value: Value<'_>) -> PyResult<Bound<'py
             // a list compares and prints as it was given
             crate::arrays::shaped(py, elements, shape)?.call_method0("tolist")
         }
-        Value::Function(function) => {
-            let function = function.downcast_ref::<Arc<dyn MatrixFunction>>();
-            let callable =
-                function.and_then(|function| function.as_any().downcast_ref::<Callable>());
-            Ok(callable.map_or_else(|| py.None().into_bound(py), |callable| callable.object(py)))
-        }
+        Value::Function(function) => Ok(callable::python(py, function)),
         Value::Choice { name, values } => {
             write_choice(py, name, |each| values.each(each)).map(Bound::into_any)
         }

@@ -62,7 +62,7 @@ macro_rules! either {
 /// >>> est = fg.RLS(2, rule=fg.Subspace(0.98, threshold=1e-3))
 /// >>> for k in range(100):
 /// ...     u = est.update([1.0, k % 7], 3.0 + 0.5 * (k % 7))
-/// >>> est.theta.round(3)
+/// >>> est.theta.round(2)
 /// array([3. , 0.5])
 #[pyclass(name = "RLS", module = "forgetting")]
 pub struct Rls {
@@ -184,7 +184,15 @@ impl Rls {
     /// The forgetting rule, as an object that would make the same one.
     #[getter]
     fn rule<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        py.import("forgetting.choices")?.call_method1("from_description", (self.describe(py)?,))
+        py.import("forgetting.choices")?
+            .call_method1("rule_from_description", (self.describe(py)?, self.dtype()))
+    }
+
+    /// The weighting, as an object that would make the same one.
+    #[getter]
+    fn weighting<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        py.import("forgetting.choices")?
+            .call_method1("weighting_from_description", (self.describe(py)?, self.dtype()))
     }
 
     /// phi @ theta.

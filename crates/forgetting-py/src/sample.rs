@@ -1,9 +1,9 @@
 //! One sample in one call.
 
-use crate::arrays::{with_slice, Array, Number};
+use crate::arrays::{owned, with_slice, Array, Number};
+use crate::callable::calls_python;
 use crate::errors::raise;
 use crate::update::Update;
-use forgetting::parameter::{Kind, Parameter};
 use forgetting::saved::AnyEstimator;
 use forgetting::{Memory, Noise};
 use pyo3::prelude::*;
@@ -18,31 +18,31 @@ pub fn update<T: Number>(
 ) -> PyResult<Update> {
     let memory = estimator.prior().memory();
     let (rows, targets) = (memory.rows(), memory.targets());
-    let copies = calls_python(estimator);
+    if calls_python(estimator) {
+        let (phi, y) = (owned("phi", phi)?, owned("y", y)?);
+        let gamma = gamma.map(|gamma| owned("gamma", gamma)).transpose()?;
+        let noise = gamma.as_deref().map_or(Noise::Unit, noise);
+        let update = estimator.update_weighted(&phi, &y, noise).map_err(raise)?;
+        return Ok(Update::new(&update, rows, targets));
+    }
     let mut update = |noise: Noise<'_, T>| {
         with_slice("phi", phi, |phi: &[T]| {
             with_slice("y", y, |y: &[T]| {
-                let update = if copies {
-                    estimator.update_weighted(&phi.to_vec(), &y.to_vec(), noise)
-                } else {
-                    estimator.update_weighted(phi, y, noise)
-                };
-                Ok(Update::new(&update.map_err(raise)?, rows, targets))
+                let update = estimator.update_weighted(phi, y, noise).map_err(raise)?;
+                Ok(Update::new(&update, rows, targets))
             })
         })
     };
     match gamma {
         None => update(Noise::Unit),
-        Some(gamma) => with_slice("gamma", gamma, |gamma| match gamma {
-            [scalar] => update(Noise::Scalar(*scalar)),
-            full => update(Noise::Full(full)),
-        }),
+        Some(gamma) => with_slice("gamma", gamma, |gamma| update(noise(gamma))),
     }
 }
 
-/// Whether an update may run Python code, which could change the arrays it was given.
-fn calls_python<T: Number>(estimator: &AnyEstimator<T>) -> bool {
-    let is_function = |parameter: &Parameter| parameter.kind == Kind::Function;
-    estimator.rule().about().parameters.iter().any(is_function)
-        || estimator.rate().about().parameters.iter().any(is_function)
+#[inline]
+fn noise<T: Number>(gamma: &[T]) -> Noise<'_, T> {
+    match gamma {
+        [scalar] => Noise::Scalar(*scalar),
+        full => Noise::Full(full),
+    }
 }

@@ -165,7 +165,7 @@ impl<M: Memory> Watch<M> {
         seen.samples += 1;
         seen.met = match *criterion {
             Criterion::Period(period) => {
-                self.seen.samples > 0 && self.seen.samples % period.max(1) == 0
+                self.seen.samples > 0 && self.seen.samples.is_multiple_of(period.max(1))
             }
             Criterion::Trace(threshold) => factor.trace() < threshold,
             Criterion::SmallestEigenvalue(threshold) => self.is_below(factor, threshold),

@@ -76,6 +76,8 @@ pub trait Real:
     fn is_finite(self) -> bool;
 
     /// Runs a loop over numbers of this type, with the instructions that suit it best.
+    ///
+    /// Not inlined: each loop exists once for a number type, not once for each rule, rate and size.
     #[inline(never)]
     fn compute<K: Kernel<Self>>(kernel: K) -> K::Output {
         kernel.run::<Self::Lanes, 2>()

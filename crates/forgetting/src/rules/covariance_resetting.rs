@@ -157,7 +157,7 @@ impl<M: Memory, F: Forgetting<M>> Forgetting<M> for CovarianceResetting<M, F> {
         let Step { factor, sample, forgetting_factor, work } = step;
         let seen = state.watch.look(&self.criterion, factor, sample, work.first.as_mut());
         let inner = Step { factor: &mut *factor, sample, forgetting_factor, work };
-        let forgotten = self.rule.forget(&mut state.rule, inner)?;
+        let forgotten = forget_between(&self.rule, &mut state.rule, inner)?;
         if forgotten.skipped.is_some() {
             return Ok(forgotten);
         }
@@ -168,6 +168,16 @@ impl<M: Memory, F: Forgetting<M>> Forgetting<M> for CovarianceResetting<M, F> {
         factor.copy_from(&self.covariance);
         Ok(Forgotten { rank: factor.parameters(), ..forgotten })
     }
+}
+
+/// Not inlined: any rule may be in here, beside any rule around it.
+#[inline(never)]
+fn forget_between<M: Memory, F: Forgetting<M>>(
+    rule: &F,
+    state: &mut F::State,
+    step: Step<'_, '_, M>,
+) -> Result<Forgotten, Error> {
+    rule.forget(state, step)
 }
 
 /// The parameters of the inner rule, to be shown.

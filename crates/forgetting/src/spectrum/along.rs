@@ -1,6 +1,7 @@
 //! Changes of P along eigenvectors.
 
-use super::{add_scaled, Spectrum};
+use super::Spectrum;
+use crate::factor::kernel::add_scaled;
 use crate::{Factor, Memory, Real, Work};
 
 impl<M: Memory> Spectrum<M> {

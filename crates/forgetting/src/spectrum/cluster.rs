@@ -2,7 +2,8 @@
 //! they span is as good, and the sample decides which.
 
 use super::jacobi::rotation;
-use super::{add_scaled, dot, rotate, two_rows, Spectrum};
+use super::{rotate, two_rows, Spectrum};
+use crate::factor::kernel::{add_scaled, dot};
 use crate::{Memory, Real};
 use core::ops::Range;
 

@@ -1,6 +1,7 @@
 //! What a rank-one change leaves alone is left out of the secular equation.
 
-use super::{dot, rotate, two_rows, Spectrum};
+use super::{rotate, two_rows, Spectrum};
+use crate::factor::kernel::dot;
 use crate::{Memory, Real};
 
 impl<M: Memory> Spectrum<M> {

@@ -1,7 +1,7 @@
 //! The spectrum from the factor, by Jacobi rotations.
 
-use super::{add_scaled, dot, rotate, two_rows, Spectrum};
-use crate::factor::kernel;
+use super::{rotate, two_rows, Spectrum};
+use crate::factor::kernel::{add_scaled, dot, multiply_transposed};
 use crate::{Factor, Memory, Real};
 
 const SWEEPS: usize = 40;
@@ -21,7 +21,7 @@ impl<M: Memory> Spectrum<M> {
         let rows = self.square.as_mut();
         rows.copy_from_slice(self.vectors.as_ref());
         for row in rows.chunks_exact_mut(n) {
-            kernel::multiply_transposed(factor.packed_columns(), row);
+            multiply_transposed(factor.packed_columns(), row);
             for (x, &d) in row.iter_mut().zip(factor.diagonal_elements()) {
                 *x *= d.sqrt();
             }

@@ -12,7 +12,7 @@ mod deflate;
 mod jacobi;
 mod secular;
 
-use crate::factor::kernel;
+use crate::factor::kernel::dot;
 use crate::state::{State, Visitor};
 use crate::vector::Vector;
 use crate::{Factor, Kernel, Memory, Real};
@@ -135,7 +135,7 @@ impl<M: Memory> Spectrum<M> {
         let n = self.memory.parameters();
         let components = self.components.as_ref();
         let roots = &mut self.roots.as_mut()[..active];
-        let sound = update(Update {
+        let sound = M::Real::compute(Update {
             poles: &self.poles.as_ref()[..active],
             weights: &self.weights.as_ref()[..active],
             rows: Rows { vectors: self.vectors.as_ref(), n, components },
@@ -218,23 +218,4 @@ fn rotate<T: Real>(x: &mut [T], y: &mut [T], cosine: T, sine: T) {
         *x = cosine * before_x - sine * before_y;
         *y = sine * before_x + cosine * before_y;
     }
-}
-
-// What follows is not inlined: it is called from many places, and called rarely or for long.
-
-#[inline(never)]
-fn update<T: Real>(update: Update<'_, T>) -> bool {
-    T::compute(update)
-}
-
-/// Σ aᵢ bᵢ
-#[inline(never)]
-fn dot<T: Real>(a: &[T], b: &[T]) -> T {
-    kernel::dot(a, b)
-}
-
-/// `y` += c·`x`
-#[inline(never)]
-fn add_scaled<T: Real>(y: &mut [T], c: T, x: &[T]) {
-    kernel::add_scaled(y, c, x);
 }

@@ -5,63 +5,62 @@ use crate::subjects::{subjects, Subject};
 use forgetting::rules::Rule;
 use forgetting::saved::AnyEstimator;
 use forgetting::{
-    Constant, Dynamic, Equal, Error, Estimator, Fixed, Memory, Noise, Packed, Prior, Real, Size,
+    Constant, Equal, Estimator, Fixed, Forgetting, Memory, Noise, Packed, Prior, Rate, Real, Size,
+    Weighting,
 };
 
 const SAMPLES: usize = 240;
 
-/// Everything that an estimator tells, sample by sample.
-fn trace<M: Memory>(subject: &Subject, memory: M, data: &[Datum<M::Real>]) -> Option<Vec<f64>> {
-    let rule = match subject.rule(memory) {
-        Err(Error::Value { parameter: "rows", .. }) => return None,
-        rule => rule.unwrap(),
-    };
-    let rate = Constant::new(M::Real::from_f64(0.97)).unwrap();
-    let prior = Prior::scalar(memory, M::Real::from_f64(10.0)).unwrap();
-    let mut estimator: Estimator<Rule<M>, _, Equal<M>, M> =
-        Estimator::new(rule, rate, Equal::new(), prior);
+/// Everything that an estimator tells, sample by sample, bit for bit.
+fn trace<F, R, W, M>(
+    subject: &Subject,
+    mut estimator: Estimator<F, R, W, M>,
+    data: &[Datum<M::Real>],
+) -> Vec<u64>
+where
+    F: Forgetting<M>,
+    R: Rate<M>,
+    W: Weighting<M>,
+    M: Memory,
+{
     let mut told = Vec::new();
     for (k, Datum { phi, y, gamma }) in data.iter().enumerate() {
         let noise = [Noise::Unit, Noise::Scalar(gamma[0]), Noise::Full(gamma)][k % 3];
-        match estimator.update_weighted(phi, y, noise) {
-            Ok(update) => {
-                told.extend(update.error.iter().map(|x| x.to_f64()));
-                told.extend([update.leverage.to_f64(), update.forgetting_factor.to_f64()]);
-                told.extend([update.rank as f64, update.skipped.map_or(0.0, |s| s.code().into())]);
-            }
-            Err(error) => panic!("{subject:?}, sample {k}: {error}"),
-        }
+        let update = estimator.update_weighted(phi, y, noise);
+        let update = update.unwrap_or_else(|e| panic!("{subject:?}, sample {k}: {e}"));
+        told.extend(update.error.iter().map(|x| x.to_f64().to_bits()));
+        told.push(update.leverage.to_f64().to_bits());
+        told.push(update.forgetting_factor.to_f64().to_bits());
+        told.extend([update.rank as u64, update.skipped.map_or(0, |s| s.code().into())]);
         assert!(estimator.is_sound(), "{subject:?}, sample {k}");
         let factor = estimator.factor();
         let state = [estimator.theta(), factor.packed_columns(), factor.diagonal_elements()];
-        told.extend(state.iter().flat_map(|part| part.iter().map(|x| x.to_f64())));
+        told.extend(state.iter().flat_map(|part| part.iter().map(|x| x.to_f64().to_bits())));
     }
-    Some(told)
+    told
 }
 
 fn same_bits<T: Real, const N: usize, const P: usize, const M: usize>()
 where
     Size<N>: Packed<T>,
 {
-    let data = record::<T>((N, P, M), SAMPLES);
+    let (memory, data) = (Fixed::<T, N, P, M>::new(), record::<T>((N, P, M), SAMPLES));
     for subject in subjects() {
-        let stack = trace(&subject, Fixed::<T, N, P, M>::new(), &data);
-        let heap = trace(&subject, Dynamic::new(N, P, M).unwrap(), &data);
-        let bits = |told: Option<Vec<f64>>| {
-            told.map(|told| told.into_iter().map(f64::to_bits).collect::<Vec<_>>())
-        };
-        assert!(bits(stack) == bits(heap), "{subject:?} with n = {N}, p = {P}, m = {M}");
+        let Some(heap) = subject.estimator::<T>((N, P, M), 0.97, 10.0) else { continue };
+        let rule: Rule<Fixed<T, N, P, M>> = subject.rule(memory).unwrap();
+        let rate = Constant::new(T::from_f64(0.97)).unwrap();
+        let prior = Prior::scalar(memory, T::from_f64(10.0)).unwrap();
+        let stack = Estimator::new(rule, rate, Equal::new(), prior);
+        let (stack, heap) = (trace(&subject, stack, &data), trace(&subject, heap, &data));
+        assert!(stack == heap, "{subject:?} with n = {N}, p = {P}, m = {M}");
     }
 }
 
 #[test]
 fn fixed_and_dynamic_sizes_give_the_same_bits() {
-    same_bits::<f64, 1, 1, 1>();
-    same_bits::<f64, 3, 1, 2>();
-    same_bits::<f64, 4, 2, 1>();
-    same_bits::<f64, 9, 3, 3>();
-    same_bits::<f32, 2, 1, 1>();
-    same_bits::<f32, 5, 2, 2>();
+    same_bits::<f64, 3, 1, 1>();
+    same_bits::<f64, 9, 3, 2>();
+    same_bits::<f32, 3, 1, 1>();
 }
 
 fn feed<T: Real>(estimator: &mut AnyEstimator<T>, data: &[Datum<T>]) {

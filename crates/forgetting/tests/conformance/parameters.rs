@@ -15,7 +15,7 @@ fn named(error: Error) -> &'static str {
         | Error::Missing { parameter }
         | Error::Unknown { parameter }
         | Error::Range { parameter, .. } => parameter,
-        Error::Unsupported { reason } | Error::State { reason } => reason,
+        other => panic!("{other} names no parameter"),
     }
 }
 
@@ -147,6 +147,7 @@ impl Told<'_> {
                     Item::matrix(rows, &elements)
                 }
                 Value::Choice { name, .. } => Item::Word(name.to_owned().leak()),
+                Value::Function(_) => panic!("a function has no name to give it by"),
             };
             given.0.push((name, item));
         });

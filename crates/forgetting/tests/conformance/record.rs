@@ -1,4 +1,5 @@
 //! Samples to feed, the same in every run.
+#![allow(dead_code, reason = "each test uses its share")]
 
 use forgetting::Real;
 
@@ -16,10 +17,6 @@ impl Noise {
         self.0 ^= self.0 >> 7;
         self.0 ^= self.0 << 17;
         (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    pub fn vector<T: Real>(&mut self, length: usize) -> Vec<T> {
-        (0..length).map(|_| T::from_f64(self.next())).collect()
     }
 }
 

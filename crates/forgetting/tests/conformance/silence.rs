@@ -67,7 +67,6 @@ fn a_million_silent_samples_in_single_precision() {
 fn every_choice_of_words_and_rules_in_silence() {
     for subject in subjects() {
         run::<f64, 3>(&subject, 30_000);
-        run::<f32, 4>(&subject, 30_000);
-        run::<f32, 1>(&subject, 30_000);
+        run::<f32, 3>(&subject, 30_000);
     }
 }

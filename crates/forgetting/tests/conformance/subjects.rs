@@ -1,4 +1,5 @@
 //! Every rule of the registry, with each of its words and each rule that it can be put around.
+#![allow(dead_code, reason = "each test uses its share")]
 
 use forgetting::parameter::{Kind, Parameter, Value, Values};
 use forgetting::rates::AnyRate;

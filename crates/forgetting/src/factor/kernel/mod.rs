@@ -87,7 +87,8 @@ pub fn agee_turner<T: Real>(columns: &mut [T], diagonal: &mut [T], x: &mut [T], 
             *u = slope.mul_add(*x, *u);
         }
         diagonal[j] = after;
-        c = c * before * inverse;
+        // in this order: c alone may be large, and its product with D overflow
+        c *= before * inverse;
     }
 }
 
