@@ -127,7 +127,6 @@ impl<M: Memory> Multiple<M> {
     }
 
     /// Each block: its first parameter, its size and its factor.
-    #[inline]
     fn blocks(&self) -> impl Iterator<Item = (usize, usize, M::Real)> + '_ {
         let sizes = self.sizes.as_ref()[..self.count].iter().map(|size| size.to_f64() as usize);
         sizes.zip(self.factors.as_ref()).scan(0, |start, (size, &factor)| {
@@ -211,7 +210,6 @@ impl<M: Memory> Forgetting<M> for Multiple<M> {
         Blocks { columns, diagonal, started: 0, work: memory.square() }
     }
 
-    #[inline]
     fn forget(&self, state: &mut Blocks<M>, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         let least = self.blocks().fold(M::Real::ONE, |least, (_, _, lambda)| least.min(lambda));
         // R_bb⁻¹ ≤ P_bb, so that P̄ is at most P/λ of the smallest λ
