@@ -9,6 +9,8 @@ pub(crate) mod dense;
 mod information;
 pub mod kernel;
 
+pub use information::Measured;
+
 use crate::{Error, Memory, Real};
 
 /// P = U D Uᵀ, n x n and positive definite.
@@ -102,6 +104,13 @@ impl<M: Memory> Factor<M> {
     #[inline(always)]
     pub fn largest(&self) -> M::Real {
         self.diagonal.as_ref().iter().fold(M::Real::ZERO, |largest, &d| largest.max(d))
+    }
+
+    /// Whether an element of D is larger than `limit`.
+    #[inline(always)]
+    pub(crate) fn exceeds(&self, limit: M::Real) -> bool {
+        // without a branch in the loop
+        self.diagonal.as_ref().iter().fold(false, |any, &d| any | (d > limit))
     }
 
     /// The smallest element of D: at least the smallest eigenvalue of P.

@@ -97,6 +97,16 @@ pub trait Forgetting<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
         false
     }
 
+    /// What P is multiplied with, if the rule does nothing else and keeps no state: P̄ = c·P.
+    ///
+    /// The estimator then need not call [`Forgetting::forget`], which must do the same: it scales
+    /// P while it measures.
+    #[inline(always)]
+    fn scaling(&self, forgetting_factor: M::Real) -> Option<M::Real> {
+        let _ = forgetting_factor;
+        None
+    }
+
     /// Forgets. Changes P, may rotate, scale or drop rows of the sample.
     ///
     /// # Errors
@@ -180,6 +190,13 @@ macro_rules! registry {
             fn is_bounded(&self) -> bool {
                 match self {
                     $(Self::$Rule(rule) => rule.is_bounded(),)*
+                }
+            }
+
+            #[inline(always)]
+            fn scaling(&self, forgetting_factor: M::Real) -> Option<M::Real> {
+                match self {
+                    $(Self::$Rule(rule) => rule.scaling(forgetting_factor),)*
                 }
             }
 
