@@ -48,7 +48,8 @@ class Rule(Choice):
     Attributes
     ----------
     forgetting_factor : float or Rate or None
-        How much to forget; None for a rule that does not use it.
+        How much to forget; None for a rule that does not use it. A rule around another rule
+        has that of the other.
     parameters : dict
         The rule's own parameters.
     """
@@ -57,10 +58,16 @@ class Rule(Choice):
 
     def _take(self, values: dict[str, Any]) -> None:
         self.forgetting_factor = values.pop("forgetting_factor", None)
+        for entry in self.about["parameters"]:
+            if entry["kind"] == "rule":
+                inner = values[entry["name"]]
+                if isinstance(inner, str):
+                    inner = values[entry["name"]] = rule(inner)
+                self.forgetting_factor = getattr(inner, "forgetting_factor", None)
         self.parameters = values
 
     def _arguments(self) -> dict[str, Any]:
-        if self.forgetting_factor is None:
+        if not self.about["forgetting_factor"]:
             return self.parameters
         return {"forgetting_factor": self.forgetting_factor, **self.parameters}
 
@@ -153,10 +160,17 @@ def rule(name: str, **parameters: Any) -> Rule:
 
 def from_description(description: Mapping[str, Any]) -> Rule:
     """The rule that `RLS.describe` describes."""
-    made = RULES[description["rule"]["name"]]
-    values = dict(description["rule"]["parameters"])
+    return _described(description["rule"], description["rate"])
+
+
+def _described(described: Mapping[str, Any], rate: Mapping[str, Any]) -> Rule:
+    """The rule of this name and these parameters, which uses the rate where it has one."""
+    made = RULES[described["name"]]
+    values = dict(described["parameters"])
+    for entry in made.about["parameters"]:
+        if entry["kind"] == "rule":
+            values[entry["name"]] = _described(values[entry["name"]], rate)
     if made.about["forgetting_factor"]:
-        rate = description["rate"]
         if rate["name"] == "constant":
             values["forgetting_factor"] = rate["parameters"]["forgetting_factor"]
         else:

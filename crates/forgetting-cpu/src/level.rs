@@ -92,10 +92,18 @@ pub(crate) fn run<T: Vectors, K: Kernel<T>>(kernel: K) -> K::Output {
     match level() {
         // SAFETY: the level says that the machine has AVX-512 F, DQ and VL, AVX2 and FMA
         Level::Wide if kernel.size() >= WIDE_FROM => unsafe { run_wide(kernel) },
-        Level::Baseline => kernel.run::<T::Lanes, 2>(),
+        Level::Baseline => run_baseline(kernel),
         // SAFETY: the level says that the machine has AVX2 and FMA
         _ => unsafe { run_fused(kernel) },
     }
+}
+
+// each once for all places that call it
+
+#[cfg(target_arch = "x86_64")]
+#[inline(never)]
+fn run_baseline<T: Vectors, K: Kernel<T>>(kernel: K) -> K::Output {
+    kernel.run::<T::Lanes, 2>()
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -113,7 +121,7 @@ fn run_fused<T: Vectors, K: Kernel<T>>(kernel: K) -> K::Output {
 }
 
 /// Runs `kernel`: every aarch64 has NEON and fused multiply-add.
-#[inline(always)]
+#[inline(never)]
 #[cfg(not(target_arch = "x86_64"))]
 pub(crate) fn run<T: Real, K: Kernel<T>>(kernel: K) -> K::Output {
     kernel.run::<T::Lanes, 4>()

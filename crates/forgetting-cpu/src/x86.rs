@@ -45,26 +45,9 @@ fn mask(count: usize) -> u8 {
     ((1u32 << (count & 15)) - 1) as u8
 }
 
-/// Lane `count` alone, of eight.
-#[inline(always)]
-fn unit(count: usize) -> u8 {
-    (1u32 << (count & 15)) as u8
-}
-
 /// Ones, then zeros: a window of eight that starts `count` before the middle has `count` ones.
 const WINDOW64: [i64; 16] = [-1, -1, -1, -1, -1, -1, -1, -1, 0, 0, 0, 0, 0, 0, 0, 0];
 const WINDOW32: [i32; 16] = [-1, -1, -1, -1, -1, -1, -1, -1, 0, 0, 0, 0, 0, 0, 0, 0];
-
-/// Zeros, a 1.0, zeros: a window of eight that starts `count` before the one has it in lane
-/// `count`.
-const UNIT64: [Fused<f64>; 16] = unit_at_eight(Fused(0.0), Fused(1.0));
-const UNIT32: [Fused<f32>; 16] = unit_at_eight(Fused(0.0), Fused(1.0));
-
-const fn unit_at_eight<T: Copy>(zero: T, one: T) -> [T; 16] {
-    let mut numbers = [zero; 16];
-    numbers[8] = one;
-    numbers
-}
 
 #[inline(always)]
 fn window<T>(numbers: &[T; 16], count: usize) -> &[T; 8] {
@@ -72,11 +55,6 @@ fn window<T>(numbers: &[T; 16], count: usize) -> &[T; 8] {
         Some(window) => window,
         None => unreachable!("a window of eight fits, as count is at most eight"),
     }
-}
-
-#[inline(always)]
-fn units64(count: usize) -> [Fused<f64>; 8] {
-    *window(&UNIT64, count)
 }
 
 /// # Safety
@@ -94,14 +72,6 @@ unsafe fn masks64(count: usize) -> (__m256i, __m256i) {
 unsafe fn masks32(count: usize) -> __m256i {
     // SAFETY: eight numbers; the instructions by the caller's promise
     unsafe { _mm256_loadu_si256(window(&WINDOW32, count).as_ptr().cast()) }
-}
-
-/// # Safety
-/// The machine has AVX.
-#[inline(always)]
-unsafe fn units32(count: usize) -> __m256 {
-    // SAFETY: eight numbers; the instructions by the caller's promise
-    unsafe { _mm256_loadu_ps(window(&UNIT32, count).as_ptr().cast()) }
 }
 
 // SAFETY, for every `unsafe` below: the machine has the instructions (see the head of this
@@ -123,9 +93,8 @@ impl Vector<Fused<f64>> for Wide<__m512d> {
         Self(unsafe { _mm512_maskz_loadu_pd(mask(first.len()), at!(first, f64, 0)) })
     }
     #[inline(always)]
-    fn load_unit(first: &[Fused<f64>]) -> Self {
-        let unit = unsafe { _mm512_maskz_mov_pd(unit(first.len()), _mm512_set1_pd(1.0)) };
-        Self(unsafe { _mm512_mask_loadu_pd(unit, mask(first.len()), at!(first, f64, 0)) })
+    fn load_half(half: &[Fused<f64>; HALF]) -> Self {
+        Self::load(half)
     }
     #[inline(always)]
     fn store(self, chunk: &mut [Fused<f64>; 8]) {
@@ -134,6 +103,10 @@ impl Vector<Fused<f64>> for Wide<__m512d> {
     #[inline(always)]
     fn store_first(self, first: &mut [Fused<f64>]) {
         unsafe { _mm512_mask_storeu_pd(at_mut!(first, f64, 0), mask(first.len()), self.0) }
+    }
+    #[inline(always)]
+    fn store_half(self, half: &mut [Fused<f64>; HALF]) {
+        self.store(half);
     }
     #[inline(always)]
     fn mul_add(self, factor: Self, term: Self) -> Self {
@@ -169,9 +142,8 @@ impl Vector<Fused<f64>> for Pair<__m256d> {
         }
     }
     #[inline(always)]
-    fn load_unit(first: &[Fused<f64>]) -> Self {
-        let (Self(low, high), unit) = (Self::load_first(first), Self::load(&units64(first.len())));
-        unsafe { Self(_mm256_or_pd(low, unit.0), _mm256_or_pd(high, unit.1)) }
+    fn load_half(half: &[Fused<f64>; HALF]) -> Self {
+        Self::load(half)
     }
     #[inline(always)]
     fn store(self, chunk: &mut [Fused<f64>; 8]) {
@@ -189,9 +161,16 @@ impl Vector<Fused<f64>> for Pair<__m256d> {
         }
     }
     #[inline(always)]
+    fn store_half(self, half: &mut [Fused<f64>; HALF]) {
+        self.store(half);
+    }
+    #[inline(always)]
     fn mul_add(self, factor: Self, term: Self) -> Self {
         unsafe {
-            Self(_mm256_fmadd_pd(self.0, factor.0, term.0), _mm256_fmadd_pd(self.1, factor.1, term.1))
+            Self(
+                _mm256_fmadd_pd(self.0, factor.0, term.0),
+                _mm256_fmadd_pd(self.1, factor.1, term.1),
+            )
         }
     }
     #[inline(always)]
@@ -220,10 +199,8 @@ impl Vector<Fused<f32>> for Wide<__m512> {
         Self(unsafe { _mm512_maskz_loadu_ps(mask(first.len()).into(), at!(first, f32, 0)) })
     }
     #[inline(always)]
-    fn load_unit(first: &[Fused<f32>]) -> Self {
-        let unit = unsafe { _mm512_maskz_mov_ps(unit(first.len()).into(), _mm512_set1_ps(1.0)) };
-        let lanes = mask(first.len()).into();
-        Self(unsafe { _mm512_mask_loadu_ps(unit, lanes, at!(first, f32, 0)) })
+    fn load_half(half: &[Fused<f32>; HALF]) -> Self {
+        Self(unsafe { _mm512_zextps256_ps512(_mm256_loadu_ps(at!(half, f32, 0))) })
     }
     #[inline(always)]
     fn store(self, chunk: &mut [Fused<f32>; 16]) {
@@ -233,6 +210,10 @@ impl Vector<Fused<f32>> for Wide<__m512> {
     fn store_first(self, first: &mut [Fused<f32>]) {
         let lanes = mask(first.len()).into();
         unsafe { _mm512_mask_storeu_ps(at_mut!(first, f32, 0), lanes, self.0) }
+    }
+    #[inline(always)]
+    fn store_half(self, half: &mut [Fused<f32>; HALF]) {
+        unsafe { _mm256_storeu_ps(at_mut!(half, f32, 0), _mm512_castps512_ps256(self.0)) }
     }
     #[inline(always)]
     fn mul_add(self, factor: Self, term: Self) -> Self {
@@ -265,9 +246,8 @@ impl Vector<Fused<f32>> for Pair<__m256> {
         }
     }
     #[inline(always)]
-    fn load_unit(first: &[Fused<f32>]) -> Self {
-        let Self(low, high) = Self::load_first(first);
-        unsafe { Self(_mm256_or_ps(low, units32(first.len())), high) }
+    fn load_half(half: &[Fused<f32>; HALF]) -> Self {
+        unsafe { Self(_mm256_loadu_ps(at!(half, f32, 0)), _mm256_setzero_ps()) }
     }
     #[inline(always)]
     fn store(self, chunk: &mut [Fused<f32>; 16]) {
@@ -281,17 +261,23 @@ impl Vector<Fused<f32>> for Pair<__m256> {
         unsafe { _mm256_maskstore_ps(at_mut!(first, f32, 0), masks32(first.len()), self.0) }
     }
     #[inline(always)]
+    fn store_half(self, half: &mut [Fused<f32>; HALF]) {
+        unsafe { _mm256_storeu_ps(at_mut!(half, f32, 0), self.0) }
+    }
+    #[inline(always)]
     fn mul_add(self, factor: Self, term: Self) -> Self {
         unsafe {
-            Self(_mm256_fmadd_ps(self.0, factor.0, term.0), _mm256_fmadd_ps(self.1, factor.1, term.1))
+            Self(
+                _mm256_fmadd_ps(self.0, factor.0, term.0),
+                _mm256_fmadd_ps(self.1, factor.1, term.1),
+            )
         }
     }
     #[inline(always)]
     fn sum(self) -> Fused<f32> {
         unsafe {
             let eight = _mm256_add_ps(self.0, self.1);
-            let four =
-                _mm_add_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps::<1>(eight));
+            let four = _mm_add_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps::<1>(eight));
             // (four[0] + four[1]) and (four[2] + four[3])
             let pairs = _mm_hadd_ps(four, four);
             Fused(_mm_cvtss_f32(_mm_add_ss(pairs, _mm_movehdup_ps(pairs))))

@@ -40,11 +40,11 @@ pub fn contiguous<'py, T: Number>(
     static CONVERT: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
     let py = values.py();
     let convert = CONVERT.get_or_try_init(py, || -> PyResult<Py<PyAny>> {
-        Ok(py.import("numpy")?.getattr("ascontiguousarray")?.unbind())
+        Ok(py.import("numpy")?.getattr("require")?.unbind())
     })?;
     let array = convert
         .bind(py)
-        .call1((values, T::DTYPE))
+        .call1((values, T::DTYPE, "C"))
         .map_err(|error| invalid(format!("{name} must hold numbers ({error})")))?;
     Ok(array.cast_into::<PyArray<T, IxDyn>>()?)
 }

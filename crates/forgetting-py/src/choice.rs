@@ -4,6 +4,7 @@
 use crate::arrays::with_slice;
 use crate::errors::{invalid, raise};
 use forgetting::parameter::{Parameter, Value, Values};
+use forgetting::rules::RULES;
 use forgetting::Error;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat, PyInt, PyString};
@@ -13,6 +14,7 @@ pub enum Given {
     Real(f64),
     Word(String),
     Matrix { rows: usize, columns: usize, elements: Box<dyn Fn(usize) -> f64 + Send + Sync> },
+    Choice(Choice),
 }
 
 /// A name and its parameters.
@@ -61,7 +63,16 @@ impl Choice {
         known: Option<&[Parameter]>,
         make: impl FnOnce(&str, &dyn Values) -> Result<T, Error>,
     ) -> PyResult<T> {
-        for (name, _) in &self.parameters {
+        self.check_names(what, known)?;
+        make(&self.name, self).map_err(|error| match error {
+            Error::Unknown { .. } => invalid(format!("{what} = {:?} is not known", self.name)),
+            error => raise(error),
+        })
+    }
+
+    /// Refuses a parameter that is not among `known`, here and in a rule that is a parameter.
+    fn check_names(&self, what: &str, known: Option<&[Parameter]>) -> PyResult<()> {
+        for (name, value) in &self.parameters {
             if let Some(known) = known.filter(|known| !known.iter().any(|k| k.name == name)) {
                 let names: Vec<_> = known.iter().map(|k| k.name).collect();
                 return Err(invalid(format!(
@@ -70,11 +81,12 @@ impl Choice {
                     if names.is_empty() { "none".into() } else { names.join(", ") }
                 )));
             }
+            if let Given::Choice(inner) = value {
+                let about = RULES.iter().find(|about| about.name == inner.name);
+                inner.check_names(name, about.map(|about| about.parameters))?;
+            }
         }
-        make(&self.name, self).map_err(|error| match error {
-            Error::Unknown { .. } => invalid(format!("{what} = {:?} is not known", self.name)),
-            error => raise(error),
-        })
+        Ok(())
     }
 }
 
@@ -86,6 +98,7 @@ impl Values for Choice {
             Given::Matrix { rows, columns, elements } => {
                 Value::Matrix { rows: *rows, columns: *columns, elements }
             }
+            Given::Choice(inner) => Value::Choice { name: &inner.name, values: inner },
         })
     }
 }
@@ -96,6 +109,9 @@ fn read_value(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Given> {
     }
     if value.is_instance_of::<PyFloat>() || value.is_instance_of::<PyInt>() {
         return value.extract().map(Given::Real);
+    }
+    if value.hasattr("name")? && value.hasattr("parameters")? {
+        return Choice::read(name, value).map(Given::Choice);
     }
     let shape = shape_of(name, value)?;
     let elements = with_slice::<f64, _>(name, value, |elements| Ok(elements.to_vec()))?;
@@ -132,5 +148,29 @@ pub fn write_value<'py>(py: Python<'py>, value: Value<'_>) -> PyResult<Bound<'py
             // a list compares and prints as it was given
             crate::arrays::shaped(py, elements, shape)?.call_method0("tolist")
         }
+        Value::Function(_) => Ok(py.None().into_bound(py)),
+        Value::Choice { name, values } => {
+            write_choice(py, name, |each| values.each(each)).map(Bound::into_any)
+        }
     }
+}
+
+/// A choice for Python: a dictionary of its name and its parameters.
+pub fn write_choice<'py>(
+    py: Python<'py>,
+    name: &str,
+    each: impl FnOnce(&mut dyn FnMut(&str, Value<'_>)),
+) -> PyResult<Bound<'py, PyDict>> {
+    let (choice, parameters) = (PyDict::new(py), PyDict::new(py));
+    let mut outcome = Ok(());
+    each(&mut |name, value| {
+        let written = write_value(py, value).and_then(|value| parameters.set_item(name, value));
+        if written.is_err() {
+            outcome = written;
+        }
+    });
+    outcome?;
+    choice.set_item("name", name)?;
+    choice.set_item("parameters", parameters)?;
+    Ok(choice)
 }

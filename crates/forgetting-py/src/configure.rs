@@ -64,12 +64,6 @@ fn read_rule<T: Number>(
     let rule = choice.make("rule", about.map(|about| about.parameters), |name, values| {
         Rule::named(name, values, memory)
     })?;
-    if let Some(limit) = about.and_then(|about| about.largest_rows) {
-        if memory.rows() > limit {
-            let rows = memory.rows();
-            return Err(invalid(format!("rows = {rows}, allowed with {}: {limit}", choice.name)));
-        }
-    }
     let factor = object.and_then(|object| object.getattr_opt("forgetting_factor").ok().flatten());
     let rate = match factor {
         // a rule without a forgetting factor reports that it forgets nothing by it

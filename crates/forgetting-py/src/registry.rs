@@ -25,13 +25,14 @@ fn parameter<'py>(py: Python<'py>, parameter: &Parameter) -> PyResult<Bound<'py,
         Kind::Word(words) => ("word", words.join(", ")),
         Kind::Matrix => ("matrix", parameter.range.words.to_owned()),
         Kind::List => ("list", parameter.range.words.to_owned()),
+        Kind::Rule => ("rule", "any rule".to_owned()),
         Kind::Function => ("function", parameter.range.words.to_owned()),
     };
     entry.set_item("name", parameter.name)?;
     entry.set_item("about", parameter.about)?;
     entry.set_item("kind", kind)?;
     entry.set_item("range", range)?;
-    entry.set_item("required", parameter.default.is_none())?;
+    entry.set_item("required", parameter.default.is_none() && !parameter.optional)?;
     let default = parameter.default.map(|value| write_value(py, value)).transpose()?;
     entry.set_item("default", default)?;
     Ok(entry)

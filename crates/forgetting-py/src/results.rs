@@ -1,9 +1,8 @@
 //! What an estimator holds, for Python.
 
 use crate::arrays::{shaped, with_slice, Array, Number};
-use crate::choice::{shape_of, write_value};
+use crate::choice::{shape_of, write_choice};
 use crate::errors::{invalid, raise};
-use forgetting::parameter::Value;
 use forgetting::rates::Rate;
 use forgetting::rules::Forgetting;
 use forgetting::saved::AnyEstimator;
@@ -48,8 +47,8 @@ pub fn factor<'py, T: Number>(
     let mut dense = vec![T::ZERO; n * n];
     for j in 0..n {
         dense[j * n + j] = T::ONE;
-        for i in 0..j {
-            dense[i * n + j] = factor.packed_columns()[j * (j - 1) / 2 + i];
+        for (i, &u) in factor.column(j).iter().enumerate() {
+            dense[i * n + j] = u;
         }
     }
     let diagonal = factor.diagonal_elements().to_vec();
@@ -87,10 +86,18 @@ pub fn describe<'py, T: Number>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let description = PyDict::new(py);
     let (rule, rate, weighting) = (estimator.rule(), estimator.rate(), estimator.weighting());
-    description.set_item("rule", part(py, rule.about().name, &|each| rule.describe(each))?)?;
-    description.set_item("rate", part(py, rate.about().name, &|each| rate.describe(each))?)?;
-    let weighting = part(py, weighting.about().name, &|each| weighting.describe(each))?;
-    description.set_item("weighting", weighting)?;
+    let of_rule = write_choice(py, rule.about().name, |each| {
+        rule.describe(&mut |name, value| each(name, value))
+    })?;
+    description.set_item("rule", of_rule)?;
+    let of_rate = write_choice(py, rate.about().name, |each| {
+        rate.describe(&mut |name, value| each(name, value))
+    })?;
+    description.set_item("rate", of_rate)?;
+    let of_weighting = write_choice(py, weighting.about().name, |each| {
+        weighting.describe(&mut |name, value| each(name, value))
+    })?;
+    description.set_item("weighting", of_weighting)?;
     Ok(description)
 }
 
@@ -118,21 +125,4 @@ pub fn predict<'py, T: Number>(
             _ => shaped(py, prediction, &shape),
         }
     })
-}
-
-type Describe<'a> = &'a dyn Fn(&mut dyn FnMut(&'static str, Value<'_>));
-
-fn part<'py>(py: Python<'py>, name: &str, describe: Describe<'_>) -> PyResult<Bound<'py, PyDict>> {
-    let (part, parameters) = (PyDict::new(py), PyDict::new(py));
-    let mut outcome = Ok(());
-    describe(&mut |name, value| {
-        let written = write_value(py, value).and_then(|value| parameters.set_item(name, value));
-        if written.is_err() {
-            outcome = written;
-        }
-    });
-    outcome?;
-    part.set_item("name", name)?;
-    part.set_item("parameters", parameters)?;
-    Ok(part)
 }

@@ -12,8 +12,20 @@ use crate::{Error, Memory, Real};
 ///
 /// # Errors
 /// [`Error::Range`] when P would overflow; P is as it was.
-#[inline(always)]
+#[inline]
 pub fn forget_along_sample<M: Memory>(step: &mut Step<'_, '_, M>) -> Result<usize, Error> {
+    forget_along_rows(step, M::Real::ZERO)
+}
+
+/// The same along those rows of the sample that are longer than `least`.
+///
+/// # Errors
+/// [`Error::Range`] when P would overflow; P is as it was.
+#[inline]
+pub fn forget_along_rows<M: Memory>(
+    step: &mut Step<'_, '_, M>,
+    least: M::Real,
+) -> Result<usize, Error> {
     let lambda = step.forgetting_factor;
     if lambda >= M::Real::ONE {
         return Ok(0);
@@ -23,7 +35,7 @@ pub fn forget_along_sample<M: Memory>(step: &mut Step<'_, '_, M>) -> Result<usiz
         return forget_along_row(step, weight);
     }
     let n = step.factor.parameters();
-    let rank = orthonormalize(step);
+    let rank = orthonormalize(step, least);
     let directions = &mut step.work.first.as_mut()[..rank * n];
     step.factor.reserve(M::Real::ONE, weight * dot(directions, directions))?;
     for direction in directions.chunks_exact_mut(n) {
@@ -32,7 +44,7 @@ pub fn forget_along_sample<M: Memory>(step: &mut Step<'_, '_, M>) -> Result<usiz
     Ok(rank)
 }
 
-#[inline(always)]
+#[inline]
 fn forget_along_row<M: Memory>(
     step: &mut Step<'_, '_, M>,
     weight: M::Real,
@@ -52,11 +64,14 @@ fn forget_along_row<M: Memory>(
 }
 
 /// Leaves the w_i in `work.first`, one after the other, and returns their number.
-fn orthonormalize<M: Memory>(step: &mut Step<'_, '_, M>) -> usize {
+fn orthonormalize<M: Memory>(step: &mut Step<'_, '_, M>, least: M::Real) -> usize {
     let n = step.factor.parameters();
     let (first, second) = (step.work.first.as_mut(), step.work.second.as_mut());
     let mut rank = 0;
     for i in 0..step.sample.rows() {
+        if !(dot(step.sample.row(i), step.sample.row(i)).sqrt() > least) {
+            continue;
+        }
         let (done_w, w) = first.split_at_mut(rank * n);
         let (done_z, z) = second.split_at_mut(rank * n);
         let (w, z) = (&mut w[..n], &mut z[..n]);

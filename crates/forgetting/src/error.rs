@@ -53,6 +53,11 @@ pub enum Error {
         /// the largest magnitude allowed
         limit: f64,
     },
+    /// A function of the user's that failed.
+    Function {
+        /// name of the parameter that it was given for
+        parameter: &'static str,
+    },
     /// A combination of choices that has no meaning.
     Unsupported {
         /// what does not go together, and what does
@@ -69,6 +74,17 @@ impl Error {
     /// A single value outside its range.
     pub fn value(parameter: &'static str, value: f64, allowed: &'static str) -> Self {
         Self::Value { parameter, index: None, value, allowed }
+    }
+
+    /// The same error, of the value at this position.
+    #[must_use]
+    pub fn at(self, position: usize) -> Self {
+        match self {
+            Self::Value { parameter, value, allowed, .. } => {
+                Self::Value { parameter, index: Some(position), value, allowed }
+            }
+            error => error,
+        }
     }
 
     /// Refuses a `length` other than `expected`.
@@ -106,6 +122,7 @@ impl fmt::Display for Error {
             Self::Range { parameter, value, limit } => {
                 write!(f, "{parameter} = {value:e} exceeds the numerical range, limit {limit:e}")
             }
+            Self::Function { parameter } => write!(f, "the function given for {parameter} failed"),
             Self::Unsupported { reason } => f.write_str(reason),
             Self::State { reason } => write!(f, "state: {reason}"),
         }

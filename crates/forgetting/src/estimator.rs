@@ -6,8 +6,9 @@
 //! correct   θ₊ = θ + R₊⁻¹ φᵀ Γ⁻¹ (y − φ θ)     θ changes here and nowhere else
 //! ```
 
+use crate::evidence::Known;
 use crate::factor::kernel::dot;
-use crate::intake::{whiten, Intake, Known, Noise};
+use crate::intake::{whiten, Intake, Noise};
 use crate::measure::{leverage, measure};
 use crate::monitor::{Health, Monitor, Seen};
 use crate::rates::Rate;
@@ -154,7 +155,7 @@ where
     ///
     /// # Errors
     /// [`Error`] names what was wrong; the estimator is as it was, bit for bit.
-    #[inline(always)]
+    #[inline]
     pub fn update(&mut self, phi: &[M::Real], y: &[M::Real]) -> Result<Update<'_, M::Real>, Error> {
         self.update_weighted(phi, y, Noise::Unit)
     }
@@ -163,7 +164,7 @@ where
     ///
     /// # Errors
     /// [`Error`] names what was wrong; the estimator is as it was, bit for bit.
-    #[inline(always)]
+    #[inline]
     pub fn update_weighted(
         &mut self,
         phi: &[M::Real],
@@ -177,57 +178,54 @@ where
         whiten(&mut sample, noise, intake.noise.as_mut())?;
         let unit = matches!(noise, Noise::Unit);
         let squares = if unit { squares } else { sample.squared_regressors() };
-        let mut known = Known::of(&sample, squares)?;
-        if self.rate.needs_leverage() || self.weighting.needs_leverage() {
-            known.leverage = leverage(&self.factor, &sample);
-        }
-        let evidence = known.evidence(&sample, &self.factor, self.samples);
-        let weight = self.weighting.weight(&evidence);
-        if weight != M::Real::ONE {
-            known.weigh(weight)?;
-            sample.scale(weight.sqrt());
-        }
-        let evidence = known.evidence(&sample, &self.factor, self.samples);
-        let lambda = self.rate.forgetting_factor(&self.rate_state, &evidence);
+        let mut known = Known::of(memory, &sample, squares)?;
+        let needs = self.rate.needs().max(self.weighting.needs());
+        let (seen, buffers) =
+            (intake.seen.as_mut(), (intake.remaining.as_mut(), intake.noise.as_mut()));
+        known.find(needs, &self.factor, &sample, &mut self.work, buffers);
+        known.weigh(&self.weighting, &mut sample, seen, &self.factor, self.samples)?;
+        let evidence = known.evidence(&sample, &self.factor, seen, self.samples);
+        let lambda = self.rate.forgetting_factor(&self.rate_state, &evidence)?;
         if !(lambda > M::Real::ZERO && lambda <= M::Real::ONE) {
             return Err(Error::value("forgetting_factor", lambda.to_f64(), "(0, 1]"));
         }
-        let (Forgotten { rank, skipped }, growth) = match self.rule.scaling(lambda) {
-            Some(growth) if sample.rows() == 1 => {
-                self.factor.reserve(growth, M::Real::ZERO)?;
-                let rank = if growth == M::Real::ONE { 0 } else { memory.parameters() };
-                (Forgotten::rank(rank), growth)
-            }
-            _ => {
-                let step = Step {
-                    factor: &mut self.factor,
-                    sample: &mut sample,
-                    forgetting_factor: lambda,
-                    work: &mut self.work,
-                };
-                (self.rule.forget(&mut self.rule_state, step)?, M::Real::ONE)
-            }
-        };
+        let (Forgotten { rank, skipped, forgetting_factor }, growth) =
+            match self.rule.scaling(lambda) {
+                Some(growth) if sample.rows() == 1 => {
+                    self.factor.reserve(growth, M::Real::ZERO)?;
+                    let rank = if growth == M::Real::ONE { 0 } else { memory.parameters() };
+                    (Forgotten::rank(rank), growth)
+                }
+                _ => {
+                    let step = Step {
+                        factor: &mut self.factor,
+                        sample: &mut sample,
+                        forgetting_factor: lambda,
+                        work: &mut self.work,
+                    };
+                    (self.rule.forget(&mut self.rule_state, step)?, M::Real::ONE)
+                }
+            };
         let leverage = if skipped.is_some() {
             leverage(&self.factor, &sample)
         } else {
             let (gain, theta) = (self.work.gain.as_mut(), self.theta.as_mut());
             let remaining = &mut intake.remaining;
             let leverage = measure(&mut self.factor, growth, &sample, gain, theta, remaining);
-            let evidence = known.evidence(&sample, &self.factor, self.samples);
+            let evidence = known.evidence(&sample, &self.factor, seen, self.samples);
             self.rate.learn(&mut self.rate_state, &evidence, lambda);
             self.samples += 1;
             leverage
         };
         if let Some(monitor) = &mut self.monitor {
-            let Known { squared_error, .. } = known;
+            let squared_error = known.used_error();
             let seen = Seen { sample: &sample, squared_error, leverage, forgetting_factor: lambda };
             monitor.watch(&self.factor, skipped.is_none().then_some(seen));
         }
         Ok(Update {
             error: self.intake.innovations.as_ref(),
             leverage,
-            forgetting_factor: lambda,
+            forgetting_factor: forgetting_factor.map_or(lambda, M::Real::from_f64),
             rank,
             skipped,
             windup: match &self.monitor {
@@ -238,13 +236,13 @@ where
     }
 
     /// θ, m x n numbers, one target after the other.
-    #[inline(always)]
+    #[inline]
     pub fn theta(&self) -> &[M::Real] {
         self.theta.as_ref()
     }
 
     /// P, factored.
-    #[inline(always)]
+    #[inline]
     pub fn factor(&self) -> &Factor<M> {
         &self.factor
     }
@@ -262,6 +260,11 @@ where
     /// The design of the forgetting factor.
     pub fn rate(&self) -> &R {
         &self.rate
+    }
+
+    /// What the design of the forgetting factor remembers.
+    pub fn rate_state(&self) -> &R::State {
+        &self.rate_state
     }
 
     /// The weighting of samples.

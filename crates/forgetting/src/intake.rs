@@ -3,8 +3,7 @@
 
 use crate::factor::dense::check_symmetric;
 use crate::factor::kernel::{arrive, dot};
-use crate::rates::Evidence;
-use crate::{Error, Factor, Memory, Real, Sample};
+use crate::{Error, Memory, Real, Sample};
 
 /// The noise covariance Γ of one sample.
 #[derive(Clone, Copy, Debug)]
@@ -26,6 +25,8 @@ pub(crate) struct Intake<M: Memory> {
     pub innovations: M::Errors,
     /// p x m: the whitened innovation
     pub errors: M::Errors,
+    /// p x m: the whitened innovation as rates and weightings see it
+    pub seen: M::Errors,
     /// p x m: what is left of it as the rows of a sample are used one after the other
     pub remaining: M::Errors,
     /// p x p: Γ, then its root
@@ -39,6 +40,7 @@ impl<M: Memory> Intake<M> {
             regressors: memory.regressors(),
             innovations: memory.errors(),
             errors: memory.errors(),
+            seen: memory.errors(),
             remaining: memory.errors(),
             noise: memory.noise(),
         }
@@ -48,7 +50,7 @@ impl<M: Memory> Intake<M> {
     ///
     /// # Errors
     /// [`Error`] names what does not fit, is not finite or is too large.
-    #[inline(always)]
+    #[inline]
     pub fn take(
         &mut self,
         memory: M,
@@ -83,7 +85,7 @@ impl<M: Memory> Intake<M> {
 }
 
 /// Applies Γ = `noise`; a full one is left factored in `root`.
-#[inline(always)]
+#[inline]
 pub fn whiten<M: Memory>(
     sample: &mut Sample<'_, M>,
     noise: Noise<'_, M::Real>,
@@ -107,57 +109,6 @@ pub fn whiten<M: Memory>(
     }
 }
 
-/// The numbers of [`Evidence`] that outlive a look at the sample.
-#[derive(Clone, Copy)]
-pub struct Known<T> {
-    /// ‖ē‖²
-    pub squared_error: T,
-    /// tr φ̄Pφ̄ᵀ, if it was asked for
-    pub leverage: T,
-    measurements: usize,
-}
-
-impl<T: Real> Known<T> {
-    /// Refuses a whitened sample, ‖φ̄‖² = `regressors`, that is too large to compute with.
-    #[inline(always)]
-    pub fn of<M: Memory<Real = T>>(sample: &Sample<'_, M>, regressors: T) -> Result<Self, Error> {
-        let squared_error = sample.squared_error();
-        if !(regressors <= T::CEILING) {
-            if let Some(index) = sample.regressors().iter().position(|x| !x.is_finite()) {
-                return Err(not_finite("phi", index, sample.regressors()[index]));
-            }
-            return Err(out_of_range("phi (its squared length)", regressors));
-        }
-        if !squared_error.is_finite() {
-            return Err(out_of_range("error (squared and whitened)", squared_error));
-        }
-        let measurements = sample.errors().len();
-        Ok(Self { squared_error, leverage: T::ZERO, measurements })
-    }
-
-    /// Γ ← Γ/weight.
-    pub fn weigh(&mut self, weight: T) -> Result<(), Error> {
-        if !(weight > T::ZERO && weight <= T::ONE) {
-            return Err(Error::value("weight", weight.to_f64(), "(0, 1]"));
-        }
-        self.squared_error *= weight;
-        self.leverage *= weight;
-        Ok(())
-    }
-
-    /// The same with a look at the sample and at P.
-    #[inline(always)]
-    pub fn evidence<'a, 'b, M: Memory<Real = T>>(
-        &self,
-        sample: &'a Sample<'b, M>,
-        factor: &'a Factor<M>,
-        samples: u64,
-    ) -> Evidence<'a, 'b, M> {
-        let Self { squared_error, leverage, measurements } = *self;
-        Evidence { sample, factor, squared_error, leverage, measurements, samples }
-    }
-}
-
 /// Which part of a sample with an innovation that is too large is to blame.
 #[cold]
 fn blame<T: Real>(phi: &[T], y: &[T], largest: T) -> Error {
@@ -170,12 +121,12 @@ fn blame<T: Real>(phi: &[T], y: &[T], largest: T) -> Error {
 }
 
 #[cold]
-fn not_finite<T: Real>(parameter: &'static str, index: usize, value: T) -> Error {
+pub(crate) fn not_finite<T: Real>(parameter: &'static str, index: usize, value: T) -> Error {
     let allowed = "finite numbers";
     Error::Value { parameter, index: Some(index), value: value.to_f64(), allowed }
 }
 
 #[cold]
-fn out_of_range<T: Real>(parameter: &'static str, value: T) -> Error {
+pub(crate) fn out_of_range<T: Real>(parameter: &'static str, value: T) -> Error {
     Error::Range { parameter, value: value.to_f64(), limit: T::CEILING.to_f64() }
 }

@@ -15,10 +15,15 @@
 
 #[cfg(feature = "alloc")]
 extern crate alloc;
+#[cfg(test)]
+extern crate std;
 
+mod blocks;
+pub mod criterion;
 mod directions;
 mod error;
 mod estimator;
+mod evidence;
 #[cfg(feature = "alloc")]
 mod excitation;
 pub mod factor;
@@ -35,19 +40,24 @@ pub mod rules;
 mod sample;
 #[cfg(feature = "alloc")]
 pub mod saved;
+pub mod spectrum;
 pub mod state;
+#[cfg(test)]
+mod testing;
 pub mod vector;
 pub mod weighting;
 mod work;
 
+pub use blocks::Blocks;
 pub use error::Error;
 pub use estimator::{Estimator, Update};
+pub use evidence::{Evidence, Needs};
 #[cfg(feature = "alloc")]
 pub use excitation::Excitation;
 pub use factor::Factor;
 pub use intake::Noise;
 #[cfg(feature = "alloc")]
-pub use memory::Dynamic;
+pub use memory::{Aligned, Dynamic};
 pub use memory::{Buffer, Fixed, Grid, Memory, Packed, Size};
 pub use monitor::Health;
 pub use prior::Prior;

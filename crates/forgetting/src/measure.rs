@@ -4,7 +4,7 @@ use crate::factor::kernel::{add_scaled, dot};
 use crate::{Factor, Memory, Real, Sample};
 
 /// tr φ̄Pφ̄ᵀ
-#[inline(always)]
+#[inline]
 pub fn leverage<M: Memory>(factor: &Factor<M>, sample: &Sample<'_, M>) -> M::Real {
     (0..sample.rows()).fold(M::Real::ZERO, |sum, i| sum + factor.leverage(sample.row(i)))
 }
@@ -14,7 +14,7 @@ pub fn leverage<M: Memory>(factor: &Factor<M>, sample: &Sample<'_, M>) -> M::Rea
 ///
 /// Whitened rows are independent: after each, what the later ones still tell is their
 /// innovation less what the correction explains.
-#[inline(always)]
+#[inline]
 pub fn measure<M: Memory>(
     factor: &mut Factor<M>,
     growth: M::Real,

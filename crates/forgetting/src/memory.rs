@@ -3,6 +3,7 @@
 //!
 //! The algorithms see slices only, so that both give the same bits.
 
+use crate::factor::kernel::{length, set_identity};
 use crate::Real;
 use core::fmt::Debug;
 use core::marker::PhantomData;
@@ -23,7 +24,7 @@ pub trait Memory: Copy + Debug + Send + Sync + 'static {
     type Real: Real;
     /// n numbers
     type Vector: Buffer<Self::Real>;
-    /// n (n − 1) / 2 numbers: the columns of U above its unit diagonal
+    /// the columns of U: [`length`](crate::factor::kernel::length) of n numbers
     type Packed: Buffer<Self::Real>;
     /// n x n numbers
     type Square: Buffer<Self::Real>;
@@ -35,6 +36,8 @@ pub trait Memory: Copy + Debug + Send + Sync + 'static {
     type Errors: Buffer<Self::Real>;
     /// m x n numbers, one target after the other
     type Parameters: Buffer<Self::Real>;
+    /// numbers of a count that only the configuration knows, such as a window of past samples
+    type List: Buffer<Self::Real>;
 
     /// n
     fn parameters(&self) -> usize;
@@ -45,7 +48,7 @@ pub trait Memory: Copy + Debug + Send + Sync + 'static {
 
     /// n zeros
     fn vector(&self) -> Self::Vector;
-    /// n (n − 1) / 2 zeros
+    /// U = I
     fn packed(&self) -> Self::Packed;
     /// n x n zeros
     fn square(&self) -> Self::Square;
@@ -57,6 +60,10 @@ pub trait Memory: Copy + Debug + Send + Sync + 'static {
     fn errors(&self) -> Self::Errors;
     /// m x n zeros
     fn theta(&self) -> Self::Parameters;
+    /// at least `length` zeros, at most [`Memory::longest_list`]
+    fn list(&self, length: usize) -> Self::List;
+    /// the most numbers that a list can hold
+    fn longest_list(&self) -> usize;
 }
 
 /// `B` blocks of `A` numbers on the stack.
@@ -79,9 +86,9 @@ impl<T, const A: usize, const B: usize> AsMut<[T]> for Grid<T, A, B> {
 
 /// A number of parameters for which the packed triangle has a type (1 to 32).
 pub trait Packed<T> {
-    /// n (n − 1) / 2 numbers
+    /// [`length`] of n numbers
     type Triangle: Buffer<T>;
-    /// zeros
+    /// U = I
     fn triangle() -> Self::Triangle;
 }
 
@@ -92,9 +99,11 @@ pub struct Size<const N: usize>;
 macro_rules! packed {
     ($($n:literal)*) => {$(
         impl<T: Real> Packed<T> for Size<$n> {
-            type Triangle = [T; $n * ($n - 1) / 2];
+            type Triangle = [T; length($n)];
             fn triangle() -> Self::Triangle {
-                [T::ZERO; $n * ($n - 1) / 2]
+                let mut triangle = [T::ZERO; length($n)];
+                set_identity(&mut triangle, $n);
+                triangle
             }
         }
     )*};
@@ -102,17 +111,22 @@ macro_rules! packed {
 packed!(1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31 32);
 
 /// Sizes known to the compiler: `N` parameters (1 to 32), `P` rows, `M` targets; no heap.
+///
+/// `L` is the room for lists: a rate that looks back over a window needs as many numbers.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Fixed<T, const N: usize, const P: usize = 1, const M: usize = 1>(PhantomData<T>);
+pub struct Fixed<T, const N: usize, const P: usize = 1, const M: usize = 1, const L: usize = 0>(
+    PhantomData<T>,
+);
 
-impl<T, const N: usize, const P: usize, const M: usize> Fixed<T, N, P, M> {
+impl<T, const N: usize, const P: usize, const M: usize, const L: usize> Fixed<T, N, P, M, L> {
     /// These sizes.
     pub const fn new() -> Self {
         Self(PhantomData)
     }
 }
 
-impl<T: Real, const N: usize, const P: usize, const M: usize> Memory for Fixed<T, N, P, M>
+impl<T: Real, const N: usize, const P: usize, const M: usize, const L: usize> Memory
+    for Fixed<T, N, P, M, L>
 where
     Size<N>: Packed<T>,
 {
@@ -124,6 +138,7 @@ where
     type Noise = Grid<T, P, P>;
     type Errors = Grid<T, M, P>;
     type Parameters = Grid<T, N, M>;
+    type List = [T; L];
 
     #[inline(always)]
     fn parameters(&self) -> usize {
@@ -158,14 +173,20 @@ where
     fn theta(&self) -> Self::Parameters {
         Grid([[T::ZERO; N]; M])
     }
+    fn list(&self, _: usize) -> [T; L] {
+        [T::ZERO; L]
+    }
+    fn longest_list(&self) -> usize {
+        L
+    }
 }
 
 #[cfg(feature = "alloc")]
-pub use dynamic::Dynamic;
+pub use dynamic::{Aligned, Dynamic};
 
 #[cfg(feature = "alloc")]
 mod dynamic {
-    use super::{Memory, PhantomData};
+    use super::{length, set_identity, Memory, PhantomData};
     use crate::{Error, Real};
     use alloc::{vec, vec::Vec};
 
@@ -179,6 +200,9 @@ mod dynamic {
     }
 
     impl<T: Real> Dynamic<T> {
+        /// The most numbers that a list can hold.
+        pub const LONGEST_LIST: usize = 1 << 20;
+
         /// `parameters` n, `rows` p and `targets` m, each from 1 to 2¹⁵.
         ///
         /// # Errors
@@ -194,15 +218,66 @@ mod dynamic {
         }
     }
 
+    /// Numbers on the heap, the first of them at the start of a cache line: a vector that lies
+    /// across two lines costs twice.
+    #[derive(Debug)]
+    pub struct Aligned<T> {
+        numbers: Vec<T>,
+        first: usize,
+        length: usize,
+    }
+
+    impl<T: Real> Aligned<T> {
+        const LINE: usize = 64;
+
+        fn zeros(length: usize) -> Self {
+            let spare = Self::LINE / T::BYTES;
+            let numbers = vec![T::ZERO; length + spare];
+            let first = numbers.as_ptr().align_offset(Self::LINE).min(spare);
+            Self { numbers, first, length }
+        }
+    }
+
+    impl<T: Real> Clone for Aligned<T> {
+        fn clone(&self) -> Self {
+            let mut copy = Self::zeros(self.length);
+            copy.as_mut().copy_from_slice(self.as_ref());
+            copy
+        }
+    }
+
+    impl<T> AsRef<[T]> for Aligned<T> {
+        #[inline(always)]
+        fn as_ref(&self) -> &[T] {
+            &self.numbers[self.first..self.first + self.length]
+        }
+    }
+
+    impl<T> core::ops::Deref for Aligned<T> {
+        type Target = [T];
+        #[inline(always)]
+        fn deref(&self) -> &[T] {
+            self.as_ref()
+        }
+    }
+
+    impl<T> AsMut<[T]> for Aligned<T> {
+        #[inline(always)]
+        fn as_mut(&mut self) -> &mut [T] {
+            &mut self.numbers[self.first..self.first + self.length]
+        }
+    }
+
     impl<T: Real> Memory for Dynamic<T> {
         type Real = T;
-        type Vector = Vec<T>;
-        type Packed = Vec<T>;
-        type Square = Vec<T>;
-        type Rows = Vec<T>;
-        type Noise = Vec<T>;
-        type Errors = Vec<T>;
-        type Parameters = Vec<T>;
+        type Vector = Aligned<T>;
+        type Packed = Aligned<T>;
+        type Square = Aligned<T>;
+        type Rows = Aligned<T>;
+        type Noise = Aligned<T>;
+        type Errors = Aligned<T>;
+        type Parameters = Aligned<T>;
+        type List = Aligned<T>;
 
         #[inline(always)]
         fn parameters(&self) -> usize {
@@ -216,26 +291,34 @@ mod dynamic {
         fn targets(&self) -> usize {
             self.targets
         }
-        fn vector(&self) -> Vec<T> {
-            vec![T::ZERO; self.parameters]
+        fn vector(&self) -> Aligned<T> {
+            Aligned::zeros(self.parameters)
         }
-        fn packed(&self) -> Vec<T> {
-            vec![T::ZERO; self.parameters * (self.parameters - 1) / 2]
+        fn packed(&self) -> Aligned<T> {
+            let mut columns = Aligned::zeros(length(self.parameters));
+            set_identity(columns.as_mut(), self.parameters);
+            columns
         }
-        fn square(&self) -> Vec<T> {
-            vec![T::ZERO; self.parameters * self.parameters]
+        fn square(&self) -> Aligned<T> {
+            Aligned::zeros(self.parameters * self.parameters)
         }
-        fn regressors(&self) -> Vec<T> {
-            vec![T::ZERO; self.rows * self.parameters]
+        fn regressors(&self) -> Aligned<T> {
+            Aligned::zeros(self.rows * self.parameters)
         }
-        fn noise(&self) -> Vec<T> {
-            vec![T::ZERO; self.rows * self.rows]
+        fn noise(&self) -> Aligned<T> {
+            Aligned::zeros(self.rows * self.rows)
         }
-        fn errors(&self) -> Vec<T> {
-            vec![T::ZERO; self.rows * self.targets]
+        fn errors(&self) -> Aligned<T> {
+            Aligned::zeros(self.rows * self.targets)
         }
-        fn theta(&self) -> Vec<T> {
-            vec![T::ZERO; self.targets * self.parameters]
+        fn theta(&self) -> Aligned<T> {
+            Aligned::zeros(self.targets * self.parameters)
+        }
+        fn list(&self, length: usize) -> Aligned<T> {
+            Aligned::zeros(length.min(Self::LONGEST_LIST))
+        }
+        fn longest_list(&self) -> usize {
+            Self::LONGEST_LIST
         }
     }
 }

@@ -120,21 +120,21 @@ impl<M: Memory> Monitor<M> {
     }
 
     /// Whether the weakest direction has wound up.
-    #[inline(always)]
+    #[inline]
     pub fn windup(&self) -> bool {
         !self.bounded
             && !self.is_informed()
             && self.variance > M::Real::from_f64(FACTOR) * self.reference
     }
 
-    #[inline(always)]
+    #[inline]
     fn is_informed(&self) -> bool {
         let told = (self.information[0] + self.information[1]) * self.variance;
         told >= M::Real::from_f64(SHARE)
     }
 
     /// Takes note of a sample, none if it was left out, and of P after it.
-    #[inline(always)]
+    #[inline]
     pub fn watch(&mut self, factor: &Factor<M>, seen: Option<Seen<'_, '_, M>>) {
         self.samples += 1;
         self.silence.as_mut().iter_mut().for_each(|silence| *silence += M::Real::ONE);
@@ -148,7 +148,7 @@ impl<M: Memory> Monitor<M> {
         }
     }
 
-    #[inline(always)]
+    #[inline]
     fn note_excitation(&mut self, sample: &Sample<'_, M>) {
         let share = M::Real::from_f64(SHARE);
         for i in 0..sample.rows() {
@@ -162,7 +162,7 @@ impl<M: Memory> Monitor<M> {
         }
     }
 
-    #[inline(always)]
+    #[inline]
     fn note_innovation(&mut self, seen: &Seen<'_, '_, M>) {
         let Seen { sample, squared_error, leverage, forgetting_factor: lambda } = *seen;
         let spread = M::Real::ONE + leverage / M::Real::from_f64(sample.rows() as f64);

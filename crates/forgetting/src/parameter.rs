@@ -37,6 +37,11 @@ impl Range {
         Self { low, high, low_included: false, high_included: false, words }
     }
 
+    /// [low, high], printed as `words`.
+    pub const fn closed(low: f64, high: f64, words: &'static str) -> Self {
+        Self { low, high, low_included: true, high_included: true, words }
+    }
+
     /// Whether the range has `x`; never for NaN.
     pub fn contains(&self, x: f64) -> bool {
         let above = x > self.low || (self.low_included && x == self.low);
@@ -58,6 +63,8 @@ pub enum Kind {
     Matrix,
     /// a number (the same for all) or a list of numbers
     List,
+    /// a rule: its name, alone or with values for its parameters
+    Rule,
     /// a function of the user's
     Function,
 }
@@ -73,8 +80,10 @@ pub struct Parameter {
     pub kind: Kind,
     /// the values allowed, element by element
     pub range: Range,
-    /// the value when none is given; without it, one must be
+    /// the value when none is given; without it, one must be, unless `optional`
     pub default: Option<Value<'static>>,
+    /// whether it may be left out although it has no default
+    pub optional: bool,
 }
 
 /// A value of a parameter.
@@ -93,6 +102,15 @@ pub enum Value<'a> {
         /// the number at a position, row by row
         elements: &'a dyn Fn(usize) -> f64,
     },
+    /// an entry of a registry with values for its own parameters
+    Choice {
+        /// the registry name
+        name: &'a str,
+        /// the values of its parameters
+        values: &'a dyn Values,
+    },
+    /// a function of the user's, as the type that the parameter is described by
+    Function(&'a (dyn core::any::Any + Send + Sync)),
 }
 
 impl core::fmt::Debug for Value<'_> {
@@ -101,6 +119,8 @@ impl core::fmt::Debug for Value<'_> {
             Self::Real(x) => write!(f, "{x}"),
             Self::Word(word) => write!(f, "{word}"),
             Self::Matrix { rows, columns, .. } => write!(f, "{rows} x {columns} numbers"),
+            Self::Choice { name, .. } => write!(f, "{name}(...)"),
+            Self::Function(_) => write!(f, "a function"),
         }
     }
 }
@@ -109,6 +129,11 @@ impl core::fmt::Debug for Value<'_> {
 pub trait Values {
     /// The value of the parameter `name`, if one was given.
     fn get(&self, name: &str) -> Option<Value<'_>>;
+
+    /// Shows every value with its name, to save it. Values that are only looked up show none.
+    fn each(&self, show: &mut dyn FnMut(&str, Value<'_>)) {
+        let _ = show;
+    }
 }
 
 /// No values: every parameter takes its default.
@@ -124,7 +149,14 @@ impl Values for Defaults {
 impl Parameter {
     /// A number in `range`, `default` when not given.
     pub const fn real(name: &'static str, default: f64, range: Range, about: &'static str) -> Self {
-        Self { name, about, kind: Kind::Real, range, default: Some(Value::Real(default)) }
+        Self {
+            name,
+            about,
+            kind: Kind::Real,
+            range,
+            default: Some(Value::Real(default)),
+            optional: false,
+        }
     }
 
     /// A whole number in `range`, `default` when not given.
@@ -134,7 +166,14 @@ impl Parameter {
         range: Range,
         about: &'static str,
     ) -> Self {
-        Self { name, about, kind: Kind::Whole, range, default: Some(Value::Real(default)) }
+        Self {
+            name,
+            about,
+            kind: Kind::Whole,
+            range,
+            default: Some(Value::Real(default)),
+            optional: false,
+        }
     }
 
     /// One of `words`, the first when not given.
@@ -144,7 +183,14 @@ impl Parameter {
         about: &'static str,
     ) -> Self {
         let default = Some(Value::Word(words[0]));
-        Self { name, about, kind: Kind::Word(words), range: Range::FINITE, default }
+        Self {
+            name,
+            about,
+            kind: Kind::Word(words),
+            range: Range::FINITE,
+            default,
+            optional: false,
+        }
     }
 
     /// A value of `kind` with elements in `range`, the number `default` when not given.
@@ -155,12 +201,23 @@ impl Parameter {
         range: Range,
         about: &'static str,
     ) -> Self {
-        Self { name, about, kind, range, default: Some(Value::Real(default)) }
+        Self { name, about, kind, range, default: Some(Value::Real(default)), optional: false }
     }
 
     /// The same parameter without a default.
     pub const fn required(self) -> Self {
         Self { default: None, ..self }
+    }
+
+    /// The same parameter without a default; the rule does without when it is not given.
+    pub const fn optional(self) -> Self {
+        Self { default: None, optional: true, ..self }
+    }
+
+    /// A rule, by its name alone or with values; `default` when not given.
+    pub const fn rule(name: &'static str, default: &'static str, about: &'static str) -> Self {
+        let default = Some(Value::Word(default));
+        Self { name, about, kind: Kind::Rule, range: Range::FINITE, default, optional: false }
     }
 
     /// `value`, if it is in range.
@@ -191,9 +248,47 @@ impl Parameter {
     /// Those of [`Parameter::check`] and [`Parameter::look_up`].
     pub fn number<T: Real>(&self, values: &dyn Values) -> Result<T, Error> {
         match self.look_up(values)? {
-            Value::Real(x) => self.check(x).map(T::from_f64),
+            Value::Real(x) => self.convert(x),
             _ => Err(Error::value(self.name, f64::NAN, "one number")),
         }
+    }
+
+    /// `x` as a number of the type computed with, in which it must be in range too: 1e-60 is
+    /// positive, but the `f32` nearest to it is 0.
+    ///
+    /// # Errors
+    /// Those of [`Parameter::check`].
+    pub fn convert<T: Real>(&self, x: f64) -> Result<T, Error> {
+        let converted = T::from_f64(self.check(x)?);
+        self.check(converted).map_err(|_| Error::value(self.name, x, self.range.words))
+    }
+
+    /// The elements of the list given in `values`, or of the default: a number stands for a
+    /// list of `length` times that number.
+    ///
+    /// # Errors
+    /// Those of [`Parameter::look_up`], [`Parameter::check`] for each element given to `take`
+    /// with its position, [`Error::Length`] for another length.
+    pub fn list<T: Real>(
+        &self,
+        values: &dyn Values,
+        length: usize,
+        mut take: impl FnMut(usize, T),
+    ) -> Result<(), Error> {
+        match self.look_up(values)? {
+            Value::Real(x) => {
+                let x = self.convert(x)?;
+                (0..length).for_each(|i| take(i, x));
+            }
+            Value::Matrix { rows, columns, elements } => {
+                Error::check_length(self.name, rows * columns, length)?;
+                for i in 0..length {
+                    take(i, self.convert(elements(i))?);
+                }
+            }
+            _ => return Err(Error::value(self.name, f64::NAN, "numbers")),
+        }
+        Ok(())
     }
 
     /// The position among its words of the word given in `values`, or of the default.

@@ -42,7 +42,7 @@ impl<M: Memory> Root<M> {
                 Error::check_length(parameter.name, rows * columns, n * n)?;
                 Self::dense(parameter.name, elements, memory)
             }
-            Value::Word(_) => Err(Error::value(parameter.name, f64::NAN, "numbers")),
+            _ => Err(Error::value(parameter.name, f64::NAN, "numbers")),
         }
     }
 
@@ -63,7 +63,8 @@ impl<M: Memory> Root<M> {
         let n = memory.parameters();
         let (mut given, mut rows, mut rank) = (memory.square(), memory.square(), 0);
         for i in 0..n {
-            let element = M::Real::from_f64(parameter.check(elements(i))?);
+            let element = parameter.convert(elements(i))?;
+            check_size(parameter.name, i, element)?;
             given.as_mut()[i] = element;
             if element > M::Real::ZERO {
                 rows.as_mut()[rank * n + i] = element.sqrt();
@@ -83,11 +84,17 @@ impl<M: Memory> Root<M> {
         let mut given = memory.square();
         for (k, x) in given.as_mut().iter_mut().enumerate() {
             *x = M::Real::from_f64(elements(k));
+            check_size(name, k, *x)?;
         }
         check_symmetric(name, given.as_ref(), n)?;
         let (mut rest, mut rows) = (given.clone(), memory.square());
         let rank = pivoted_cholesky(name, rest.as_mut(), rows.as_mut(), n)?;
         Ok(Self { memory, form: Form::Dense, given, rank, rows })
+    }
+
+    /// The sizes it was made for.
+    pub fn memory(&self) -> M {
+        self.memory
     }
 
     /// The rows r_i.
@@ -100,6 +107,13 @@ impl<M: Memory> Root<M> {
     /// n
     pub fn parameters(&self) -> usize {
         self.memory.parameters()
+    }
+
+    /// The row r_i, i < rank.
+    #[inline(always)]
+    pub fn row(&self, i: usize) -> &[M::Real] {
+        let n = self.memory.parameters();
+        &self.rows.as_ref()[i * n..(i + 1) * n]
     }
 
     /// The rank of the matrix.
@@ -137,6 +151,15 @@ impl<M: Memory> Root<M> {
             Form::Dense => each(name, Value::Matrix { rows: n, columns: n, elements: &elements }),
         }
     }
+}
+
+/// Refuses an element that is so large that an update could overflow.
+fn check_size<T: Real>(name: &'static str, index: usize, element: T) -> Result<(), Error> {
+    if element.abs() <= T::CEILING {
+        return Ok(());
+    }
+    let (value, allowed) = (element.to_f64(), "numbers within the range of the number type");
+    Err(Error::Value { parameter: name, index: Some(index), value, allowed })
 }
 
 /// Writes the root of the n x n matrix `rest` to `rows` and returns its rank; uses up `rest`.

@@ -16,51 +16,65 @@ pub struct Sample<'a, M: Memory> {
 
 impl<'a, M: Memory> Sample<'a, M> {
     /// The sample of `memory.rows()` rows in these two buffers.
-    #[inline(always)]
+    #[inline]
     pub fn new(memory: M, regressors: &'a mut [M::Real], errors: &'a mut [M::Real]) -> Self {
         Self { memory, rows: memory.rows(), regressors, errors }
     }
 
+    /// The sizes it was made for.
+    pub fn memory(&self) -> M {
+        self.memory
+    }
+
     /// Rows still in use.
-    #[inline(always)]
+    #[inline]
     pub fn rows(&self) -> usize {
         self.rows
     }
 
     /// Row i of φ̄, n numbers.
-    #[inline(always)]
+    #[inline]
     pub fn row(&self, i: usize) -> &[M::Real] {
         let n = self.memory.parameters();
         &self.regressors[i * n..(i + 1) * n]
     }
 
     /// Row i of ē, one number a target.
-    #[inline(always)]
+    #[inline]
     pub fn error(&self, i: usize) -> &[M::Real] {
         let m = self.memory.targets();
         &self.errors[i * m..(i + 1) * m]
     }
 
     /// All rows of φ̄ still in use, row by row.
-    #[inline(always)]
+    #[inline]
     pub fn regressors(&self) -> &[M::Real] {
         &self.regressors[..self.rows * self.memory.parameters()]
     }
 
     /// All rows of ē still in use, row by row.
-    #[inline(always)]
+    #[inline]
     pub fn errors(&self) -> &[M::Real] {
         &self.errors[..self.rows * self.memory.targets()]
     }
 
     /// ‖φ̄‖² (Frobenius).
-    #[inline(always)]
+    #[inline]
     pub fn squared_regressors(&self) -> M::Real {
         dot(self.regressors(), self.regressors())
     }
 
+    /// The length of the longest row of φ̄: its largest singular value, once the rows are
+    /// orthogonal.
+    #[inline]
+    pub fn longest_row(&self) -> M::Real {
+        let squared = (0..self.rows)
+            .fold(M::Real::ZERO, |longest, i| longest.max(dot(self.row(i), self.row(i))));
+        squared.sqrt()
+    }
+
     /// ‖ē‖² over rows and targets.
-    #[inline(always)]
+    #[inline]
     pub fn squared_error(&self) -> M::Real {
         match self.errors() {
             [error] => *error * *error,
@@ -69,7 +83,7 @@ impl<'a, M: Memory> Sample<'a, M> {
     }
 
     /// Multiplies the sample by c: Γ ← Γ/c².
-    #[inline(always)]
+    #[inline]
     pub fn scale(&mut self, c: M::Real) {
         for x in self.regressors.iter_mut().chain(self.errors.iter_mut()) {
             *x *= c;
@@ -151,6 +165,15 @@ impl<'a, M: Memory> Sample<'a, M> {
         true
     }
 
+    /// Sets the rows of φ̄ that are not longer than `least` to zero.
+    pub fn clear_shorter_than(&mut self, least: M::Real) {
+        for row in self.regressors.chunks_exact_mut(self.memory.parameters()) {
+            if !(dot(row, row).sqrt() > least) {
+                row.fill(M::Real::ZERO);
+            }
+        }
+    }
+
     /// Keeps the rows that are at least `threshold` long, in their order; drops the others.
     pub fn keep_longer_than(&mut self, threshold: M::Real) {
         let (n, m) = (self.memory.parameters(), self.memory.targets());
@@ -170,7 +193,11 @@ impl<'a, M: Memory> Sample<'a, M> {
 ///
 /// # Errors
 /// [`Error::Indefinite`] names `parameter`.
-pub fn cholesky<T: Real>(a: &mut [T], p: usize, parameter: &'static str) -> Result<(), Error> {
+pub(crate) fn cholesky<T: Real>(
+    a: &mut [T],
+    p: usize,
+    parameter: &'static str,
+) -> Result<(), Error> {
     for j in 0..p {
         let (done, _) = a[j * p..].split_at(j);
         let pivot = a[j * p + j] - dot(done, done);

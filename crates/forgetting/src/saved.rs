@@ -8,7 +8,7 @@
 //! | sizes | n, p, m as 32-bit numbers |
 //! | form of P₀ | one byte |
 //! | watched | one byte, 0 or 1 |
-//! | rule, rate, weighting | each a name and its parameters by name |
+//! | rule, rate, weighting | each a name and its parameters by name; a rule may be a parameter |
 //! | numbers | the prior, then the state, in the order of `visit` |
 //! | check | CRC-32 of all before it |
 //!
@@ -20,7 +20,7 @@ use crate::rules::{Forgetting, Rule};
 use crate::state::Visitor;
 use crate::weighting::{AnyWeighting, Weighting};
 use crate::{Dynamic, Error, Estimator, Memory, Prior, Real};
-use alloc::{string::String, vec::Vec};
+use alloc::{boxed::Box, string::String, vec::Vec};
 
 mod read;
 mod write;
@@ -39,7 +39,7 @@ impl<T: Real> AnyEstimator<T> {
     /// # Errors
     /// [`Error::Unsupported`] when a part of it is a function of the user's.
     pub fn to_bytes(&self) -> Result<Vec<u8>, Error> {
-        let mut bytes = write::header(self);
+        let mut bytes = write::header(self)?;
         let mut copy = self.clone();
         let mut prior = self.prior().clone();
         let mut numbers = write::Numbers(&mut bytes);

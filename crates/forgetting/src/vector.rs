@@ -13,13 +13,14 @@ pub trait Vector<T: Real>: Copy {
     fn load(chunk: &T::Chunk) -> Self;
     /// The numbers of `first`, at most [`HALF`]; 0 in the other lanes.
     fn load_first(first: &[T]) -> Self;
-    /// The numbers of `first`, less than [`HALF`], then a 1; 0 in the other lanes: a column of a
-    /// unit triangle.
-    fn load_unit(first: &[T]) -> Self;
+    /// The numbers of `half`; 0 in the other lanes.
+    fn load_half(half: &[T; HALF]) -> Self;
     /// Writes all lanes to `chunk`.
     fn store(self, chunk: &mut T::Chunk);
     /// Writes the first lanes to `first`, at most [`HALF`] numbers.
     fn store_first(self, first: &mut [T]);
+    /// Writes the first [`HALF`] lanes to `half`.
+    fn store_half(self, half: &mut [T; HALF]);
     /// `self * factor + term`, lane by lane.
     fn mul_add(self, factor: Self, term: Self) -> Self;
     /// The sum of all lanes: halves added to halves down to four, then pairs.
@@ -60,10 +61,10 @@ impl<T: Real<Chunk = [T; L]>, const L: usize> Vector<T> for Lanes<T, L> {
         Self(lanes)
     }
     #[inline(always)]
-    fn load_unit(first: &[T]) -> Self {
-        let mut lanes = Self::load_first(first);
-        lanes.0[first.len() % HALF] = T::ONE;
-        lanes
+    fn load_half(half: &[T; HALF]) -> Self {
+        let mut lanes = [T::ZERO; L];
+        lanes[..HALF].copy_from_slice(half);
+        Self(lanes)
     }
     #[inline(always)]
     fn store(self, chunk: &mut [T; L]) {
@@ -74,6 +75,10 @@ impl<T: Real<Chunk = [T; L]>, const L: usize> Vector<T> for Lanes<T, L> {
         for (x, &lane) in first.iter_mut().zip(&self.0[..HALF]) {
             *x = lane;
         }
+    }
+    #[inline(always)]
+    fn store_half(self, half: &mut [T; HALF]) {
+        half.copy_from_slice(&self.0[..HALF]);
     }
     #[inline(always)]
     fn mul_add(mut self, factor: Self, term: Self) -> Self {

@@ -8,7 +8,7 @@ impl<M: Memory> Factor<M> {
     ///
     /// # Errors
     /// [`Error::Range`] when P would leave the range of the number type; P is as it was.
-    #[inline(always)]
+    #[inline]
     pub fn scale(&mut self, growth: M::Real) -> Result<(), Error> {
         self.reserve(growth, M::Real::ZERO)?;
         for d in self.diagonal.as_mut() {
@@ -17,10 +17,21 @@ impl<M: Memory> Factor<M> {
         Ok(())
     }
 
+    /// P ← P·`trace`/tr(P), for a trace below [`Real::CEILING`]. O(n²).
+    ///
+    /// Elements of D that would fall below [`Real::FLOOR`] stay there.
+    pub fn hold_trace(&mut self, trace: M::Real) {
+        let before = self.trace();
+        for d in self.diagonal.as_mut() {
+            *d = (*d / before * trace).max(M::Real::FLOOR);
+        }
+        self.tighten();
+    }
+
     /// P ← P + c·x·xᵀ with c ≥ 0 for n numbers `x`, which it uses up. O(n²).
     ///
     /// Call [`Factor::reserve`] first, for all that one sample adds.
-    #[inline(always)]
+    #[inline]
     pub fn add_covariance(&mut self, x: &mut [M::Real], c: M::Real) {
         kernel::agee_turner(self.columns.as_mut(), self.diagonal.as_mut(), x, c);
     }
@@ -57,7 +68,7 @@ impl<M: Memory> Factor<M> {
     ///
     /// # Errors
     /// [`Error::Range`] when the trace would exceed [`Real::CEILING`]; P is as it was.
-    #[inline(always)]
+    #[inline]
     pub fn reserve(&mut self, growth: M::Real, added: M::Real) -> Result<(), Error> {
         let before = self.trace_bound;
         let mut bound = before * growth + added;

@@ -21,6 +21,13 @@ impl<M: Memory> Factor<M> {
         Ok(factor)
     }
 
+    /// P ← that of `other`, of the same sizes.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.columns.as_mut().copy_from_slice(other.columns.as_ref());
+        self.diagonal.as_mut().copy_from_slice(other.diagonal.as_ref());
+        self.trace_bound = other.trace_bound;
+    }
+
     /// P ← the n x n matrix `covariance`, of which it reads the upper triangle and which it uses
     /// up. O(n³/6).
     ///
@@ -47,6 +54,84 @@ impl<M: Memory> Factor<M> {
         }
         self.trace_bound = trace;
         Ok(())
+    }
+
+    /// P⁻¹ ← the n x n matrix `information`, of which it reads the lower triangle and which it
+    /// uses up. O(n³/3).
+    ///
+    /// # Errors
+    /// [`Error::Indefinite`] unless each pivot is above `pivot`, the rounding that the matrix is
+    /// known to, [`Error::Range`] when P would be too large; P is as it was.
+    pub fn replace_information(
+        &mut self,
+        information: &mut [M::Real],
+        pivot: impl Fn(usize) -> M::Real,
+        name: &'static str,
+    ) -> Result<(), Error> {
+        let n = self.parameters();
+        decompose_information(information, n, pivot, name)?;
+        invert_unit_lower(information, n);
+        // P = L⁻ᵀ D L⁻¹: row i of L⁻¹ is column i of U
+        let trace = (0..n).fold(M::Real::ZERO, |trace, i| {
+            let row = &information[i * n..i * n + i];
+            trace + (M::Real::ONE + kernel::dot(row, row)) / information[i * n + i]
+        });
+        if !(trace < M::Real::CEILING) {
+            let limit = M::Real::CEILING.to_f64();
+            return Err(Error::Range { parameter: name, value: trace.to_f64(), limit });
+        }
+        for i in 0..n {
+            let d = M::Real::ONE / information[i * n + i];
+            self.diagonal.as_mut()[i] = d.max(M::Real::FLOOR);
+            let column = kernel::column_mut(self.columns.as_mut(), i);
+            column.copy_from_slice(&information[i * n..i * n + i]);
+        }
+        self.trace_bound = trace;
+        Ok(())
+    }
+}
+
+/// A = L D Lᵀ in place, D on the diagonal and L below it.
+fn decompose_information<T: Real>(
+    a: &mut [T],
+    n: usize,
+    least: impl Fn(usize) -> T,
+    name: &'static str,
+) -> Result<(), Error> {
+    for i in 0..n {
+        for j in 0..=i {
+            // a_ij − Σ_k<j L_ik D_k L_jk, the row i still holding L_ik D_k
+            let mut sum = a[i * n + j];
+            for k in 0..j {
+                let other = if j == i { a[i * n + k] / a[k * n + k] } else { a[j * n + k] };
+                sum -= a[i * n + k] * other;
+            }
+            a[i * n + j] = sum;
+        }
+        let d = a[i * n + i];
+        if !(d > least(i) && d.is_finite()) {
+            let pivot = d.to_f64();
+            return Err(Error::Indefinite { parameter: name, pivot, allowed: "positive definite" });
+        }
+        for k in 0..i {
+            let d = a[k * n + k];
+            a[i * n + k] /= d;
+        }
+    }
+    Ok(())
+}
+
+/// L ← L⁻¹ below the diagonal, L unit lower triangular.
+fn invert_unit_lower<T: Real>(a: &mut [T], n: usize) {
+    for i in 0..n {
+        for j in 0..i {
+            // −(L_ij + Σ_j<k<i L_ik (L⁻¹)_kj): rows above i are inverted already
+            let mut sum = a[i * n + j];
+            for k in j + 1..i {
+                sum += a[i * n + k] * a[k * n + j];
+            }
+            a[i * n + j] = -sum;
+        }
     }
 }
 

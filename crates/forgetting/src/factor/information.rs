@@ -17,7 +17,7 @@ pub struct Measured<T> {
 impl<M: Memory> Factor<M> {
     /// P⁻¹ ← P⁻¹ + fᵀf for n numbers `f`; leaves P·fᵀ (with the P of before, that is a times the
     /// gain) in `gain`.
-    #[inline(always)]
+    #[inline]
     pub fn add_information(&mut self, f: &[M::Real], gain: &mut [M::Real]) -> Measured<M::Real> {
         kernel::bierman(self.columns.as_mut(), self.diagonal.as_mut(), f, gain)
     }
@@ -26,7 +26,7 @@ impl<M: Memory> Factor<M> {
     /// `theta` that belong to each e of `errors`: all of it in one pass over U.
     ///
     /// Call [`Factor::reserve`] first.
-    #[inline(always)]
+    #[inline]
     pub(crate) fn measure(
         &mut self,
         growth: M::Real,
@@ -39,7 +39,7 @@ impl<M: Memory> Factor<M> {
     }
 
     /// f·P·fᵀ for n numbers `f`.
-    #[inline(always)]
+    #[inline]
     pub fn leverage(&self, f: &[M::Real]) -> M::Real {
         kernel::leverage(self.columns.as_ref(), self.diagonal.as_ref(), f)
     }
@@ -47,18 +47,36 @@ impl<M: Memory> Factor<M> {
     /// D^(−1/2)·U⁻¹·fᵀ in place of `f`: its squared length is f·P⁻¹·fᵀ.
     ///
     /// Gives the vector without the square roots of D; divide products of elements by D.
-    #[inline(always)]
+    #[inline]
     pub fn solve(&self, f: &mut [M::Real]) {
         kernel::solve(self.columns.as_ref(), f);
     }
 
     /// f·P⁻¹·fᵀ, the information that P⁻¹ holds along `f`, by one triangular solve in `work`.
-    #[inline(always)]
+    #[inline]
     pub fn information_along(&self, f: &[M::Real], work: &mut [M::Real]) -> M::Real {
         work.copy_from_slice(f);
         self.solve(work);
         let diagonal = self.diagonal.as_ref();
         work.iter().zip(diagonal).fold(M::Real::ZERO, |sum, (&z, &d)| sum + z * z / d)
+    }
+
+    /// x ← D^(1/2)·Uᵀ·x: the squared length is then xᵀ·P·x. O(n²/2).
+    #[inline]
+    pub fn apply_root_transposed(&self, x: &mut [M::Real]) {
+        kernel::multiply_transposed(self.columns.as_ref(), x);
+        for (x, &d) in x.iter_mut().zip(self.diagonal.as_ref()) {
+            *x *= d.sqrt();
+        }
+    }
+
+    /// x ← U·D^(1/2)·x, with the root of which P is the square. O(n²/2).
+    #[inline]
+    pub fn apply_root(&self, x: &mut [M::Real]) {
+        for (x, &d) in x.iter_mut().zip(self.diagonal.as_ref()) {
+            *x *= d.sqrt();
+        }
+        kernel::multiply(self.columns.as_ref(), x);
     }
 
     /// x ← P·x
@@ -68,5 +86,26 @@ impl<M: Memory> Factor<M> {
             *x *= d;
         }
         kernel::multiply(self.columns.as_ref(), x);
+    }
+
+    /// P⁻¹ as n x n numbers, written to `dense`; uses `work`, of as many. O(n³/2).
+    pub fn reconstruct_information(&self, dense: &mut [M::Real], work: &mut [M::Real]) {
+        let n = self.parameters();
+        for (i, row) in work.chunks_exact_mut(n).enumerate() {
+            row.fill(M::Real::ZERO);
+            row[i] = M::Real::ONE;
+            self.solve(row);
+            for (x, &d) in row.iter_mut().zip(self.diagonal.as_ref()) {
+                *x /= d.sqrt();
+            }
+        }
+        for i in 0..n {
+            for j in 0..=i {
+                let (a, b) = (&work[i * n..(i + 1) * n], &work[j * n..(j + 1) * n]);
+                let element = kernel::dot(a, b);
+                dense[i * n + j] = element;
+                dense[j * n + i] = element;
+            }
+        }
     }
 }

@@ -8,8 +8,10 @@
 //! |---|---|---|---|
 //! | λ | forgetting_factor | (0, 1] | 0.99 |
 //!
-//! The memory is 1/(1 − λ) samples long; after ln(1/2)/ln λ samples (the half-life) a sample
-//! counts half.
+//! - The memory is 1/(1 − λ) samples long; after ln(1/2)/ln λ samples (the half-life) a sample
+//!   counts half.
+//! - Cost: none. State: none.
+//! - Use it first: it is the one number that the others replace.
 //!
 //! Reference: GF-RLS (35).
 
@@ -82,8 +84,8 @@ impl<M: Memory> Rate<M> for Constant<M> {
 
     fn start(&self, _: M) {}
 
-    #[inline(always)]
-    fn forgetting_factor(&self, (): &(), _: &Evidence<'_, '_, M>) -> M::Real {
-        self.forgetting_factor
+    #[inline]
+    fn forgetting_factor(&self, (): &(), _: &Evidence<'_, '_, M>) -> Result<M::Real, Error> {
+        Ok(self.forgetting_factor)
     }
 }

@@ -3,24 +3,19 @@
 
 use crate::parameter::{Parameter, Value, Values};
 use crate::state::{State, Visitor};
-use crate::{Error, Factor, Memory, Sample};
+use crate::{Error, Memory};
 
-/// What a rate or a weighting knows of a sample.
-#[derive(Clone, Copy, Debug)]
-pub struct Evidence<'a, 'b, M: Memory> {
-    /// the whitened sample
-    pub sample: &'a Sample<'b, M>,
-    /// P, before forgetting in `forgetting_factor`, after the measurement in `learn`
-    pub factor: &'a Factor<M>,
-    /// ‖ē‖² over rows and targets, before the sample was used
-    pub squared_error: M::Real,
-    /// tr φ̄Pφ̄ᵀ with the P before forgetting, if [`Rate::needs_leverage`], else 0
-    pub leverage: M::Real,
-    /// number of scalar measurements: rows times targets
-    pub measurements: usize,
-    /// samples used so far, without this one
-    pub samples: u64,
-}
+mod averages;
+mod f_law;
+mod limits;
+mod next;
+mod windows;
+
+pub use crate::evidence::{Evidence, Needs};
+pub use averages::{Averages, Memories};
+pub use limits::Limits;
+pub use next::Next;
+pub use windows::Windows;
 
 /// What the registry says of a rate.
 #[derive(Clone, Copy, Debug)]
@@ -52,44 +47,55 @@ pub trait Rate<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
     /// The state before the first sample.
     fn start(&self, memory: M) -> Self::State;
 
-    /// Whether the design uses the leverage, which costs O(n²/2) more.
-    #[inline(always)]
-    fn needs_leverage(&self) -> bool {
-        false
+    /// What the design uses beside the errors.
+    #[inline]
+    fn needs(&self) -> Needs {
+        Needs::Errors
     }
 
     /// λ_k in (0, 1], from what is known before the sample is used.
-    fn forgetting_factor(&self, state: &Self::State, evidence: &Evidence<'_, '_, M>) -> M::Real;
+    ///
+    /// A design that finds λ for the next sample keeps it in its state and returns it here.
+    ///
+    /// # Errors
+    /// [`Error::Function`] when a function of the user's fails: the sample is refused.
+    fn forgetting_factor(
+        &self,
+        state: &Self::State,
+        evidence: &Evidence<'_, '_, M>,
+    ) -> Result<M::Real, Error>;
 
     /// Takes note of the sample, after it was used with the factor `lambda`.
-    #[inline(always)]
+    #[inline]
     fn learn(&self, _: &mut Self::State, _: &Evidence<'_, '_, M>, lambda: M::Real) {
         let _ = lambda;
     }
 }
 
 macro_rules! registry {
-    ($($module:ident :: $Rate:ident,)*) => {
+    ($($(#[$only:meta])* $module:ident :: $Rate:ident,)*) => {
         $(
+            $(#[$only])*
             pub mod $module;
+            $(#[$only])*
             pub use $module::$Rate;
         )*
 
         /// Every rate: its name, parameters and documentation.
-        pub const RATES: &[AboutRate] = &[$($module::ABOUT),*];
+        pub const RATES: &[AboutRate] = &[$($(#[$only])* $module::ABOUT),*];
 
         /// Any rate of the registry, chosen by name at run time.
         #[derive(Clone, Debug)]
         #[allow(missing_docs, reason = "each variant is the rate of that name")]
         pub enum AnyRate<M: Memory> {
-            $($Rate($Rate<M>),)*
+            $($(#[$only])* $Rate($Rate<M>),)*
         }
 
         /// The state of any rate of the registry.
         #[derive(Clone, Debug)]
         #[allow(missing_docs, reason = "each variant is the state of the rate of that name")]
         pub enum AnyRateState<M: Memory> {
-            $($Rate(<$Rate<M> as Rate<M>>::State),)*
+            $($(#[$only])* $Rate(<$Rate<M> as Rate<M>>::State),)*
         }
 
         impl<M: Memory> AnyRate<M> {
@@ -99,7 +105,7 @@ macro_rules! registry {
             /// [`Error::Unknown`] for a name that is not in the registry, else those of the rate.
             pub fn named(name: &str, values: &dyn Values, memory: M) -> Result<Self, Error> {
                 match name {
-                    $(stringify!($module) => {
+                    $($(#[$only])* stringify!($module) => {
                         <$Rate<M> as Rate<M>>::configure(values, memory).map(Self::$Rate)
                     })*
                     _ => Err(Error::Unknown { parameter: "rate" }),
@@ -109,7 +115,7 @@ macro_rules! registry {
             /// The entry of this rate in [`RATES`].
             pub fn about(&self) -> AboutRate {
                 match self {
-                    $(Self::$Rate(_) => $module::ABOUT,)*
+                    $($(#[$only])* Self::$Rate(_) => $module::ABOUT,)*
                 }
             }
         }
@@ -117,7 +123,7 @@ macro_rules! registry {
         impl<M: Memory> State<M::Real> for AnyRateState<M> {
             fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
                 match self {
-                    $(Self::$Rate(state) => state.visit(visitor),)*
+                    $($(#[$only])* Self::$Rate(state) => state.visit(visitor),)*
                 }
             }
         }
@@ -131,39 +137,38 @@ macro_rules! registry {
 
             fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>)) {
                 match self {
-                    $(Self::$Rate(rate) => rate.describe(each),)*
+                    $($(#[$only])* Self::$Rate(rate) => rate.describe(each),)*
                 }
             }
 
             fn start(&self, memory: M) -> Self::State {
                 match self {
-                    $(Self::$Rate(rate) => AnyRateState::$Rate(rate.start(memory)),)*
+                    $($(#[$only])* Self::$Rate(rate) => AnyRateState::$Rate(rate.start(memory)),)*
                 }
             }
 
-            #[inline(always)]
-            fn needs_leverage(&self) -> bool {
+            #[inline]
+            fn needs(&self) -> Needs {
                 match self {
-                    $(Self::$Rate(rate) => rate.needs_leverage(),)*
+                    $($(#[$only])* Self::$Rate(rate) => rate.needs(),)*
                 }
             }
 
-            #[inline(always)]
+            #[inline]
             fn forgetting_factor(
                 &self,
                 state: &Self::State,
                 evidence: &Evidence<'_, '_, M>,
-            ) -> M::Real {
+            ) -> Result<M::Real, Error> {
                 match (self, state) {
-                    $((Self::$Rate(rate), AnyRateState::$Rate(state)) => {
+                    $($(#[$only])* (Self::$Rate(rate), AnyRateState::$Rate(state)) => {
                         rate.forgetting_factor(state, evidence)
                     })*
-                    #[allow(unreachable_patterns, reason = "there may be one rate only")]
-                    _ => <M::Real as crate::Real>::ONE,
+                    _ => Err(Error::State { reason: "the state is that of another rate" }),
                 }
             }
 
-            #[inline(always)]
+            #[inline]
             fn learn(
                 &self,
                 state: &mut Self::State,
@@ -171,10 +176,9 @@ macro_rules! registry {
                 lambda: M::Real,
             ) {
                 match (self, state) {
-                    $((Self::$Rate(rate), AnyRateState::$Rate(state)) => {
+                    $($(#[$only])* (Self::$Rate(rate), AnyRateState::$Rate(state)) => {
                         rate.learn(state, evidence, lambda);
                     })*
-                    #[allow(unreachable_patterns, reason = "there may be one rate only")]
                     _ => {}
                 }
             }
@@ -184,4 +188,15 @@ macro_rules! registry {
 
 registry! {
     constant::Constant,
+    prediction_error::PredictionError,
+    fortescue::Fortescue,
+    noise_power::NoisePower,
+    gradient::Gradient,
+    exact_gradient::ExactGradient,
+    rms_ratio::RmsRatio,
+    f_test::FTest,
+    unity_zone::UnityZone,
+    schedule::Schedule,
+    #[cfg(feature = "alloc")]
+    function::Function,
 }

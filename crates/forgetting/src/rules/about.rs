@@ -1,6 +1,7 @@
 //! What the registry says of a rule.
 
 use crate::parameter::Parameter;
+use crate::Error;
 
 /// Whether something is guaranteed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,6 +40,19 @@ pub struct About {
 }
 
 impl About {
+    /// Refuses more rows than the rule takes.
+    ///
+    /// # Errors
+    /// [`Error::Value`] names `rows`.
+    pub fn check_rows(&self, rows: usize) -> Result<(), Error> {
+        match self.largest_rows {
+            Some(largest) if rows > largest => {
+                Err(Error::value("rows", rows as f64, "1 with this rule; else `subspace`"))
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// The lines of the header, without their comment marks.
     pub fn header(&self) -> impl Iterator<Item = &'static str> {
         self.source

@@ -77,7 +77,7 @@ impl<M: Memory> Forgetting<M> for ExponentialResetting<M> {
         self.information.rank() == self.information.parameters()
     }
 
-    #[inline(always)]
+    #[inline]
     fn forget(&self, (): &mut (), step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         let lambda = step.forgetting_factor;
         if lambda >= M::Real::ONE {

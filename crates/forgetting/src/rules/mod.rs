@@ -32,19 +32,27 @@ pub struct Forgotten {
     pub rank: usize,
     /// why the sample is left out altogether, if it is
     pub skipped: Option<Skip>,
+    /// the forgetting factor, where the rule used another than the rate's
+    pub forgetting_factor: Option<f64>,
 }
 
 impl Forgotten {
     /// F of this rank.
-    #[inline(always)]
+    #[inline]
     pub fn rank(rank: usize) -> Self {
-        Self { rank, skipped: None }
+        Self { rank, skipped: None, forgetting_factor: None }
     }
 
     /// F = 0, and nothing is learned from the sample either.
-    #[inline(always)]
+    #[inline]
     pub fn skipped(reason: Skip) -> Self {
-        Self { rank: 0, skipped: Some(reason) }
+        Self { rank: 0, skipped: Some(reason), forgetting_factor: None }
+    }
+
+    /// The same, done with this forgetting factor in place of the rate's.
+    #[inline]
+    pub fn with_factor(self, forgetting_factor: f64) -> Self {
+        Self { forgetting_factor: Some(forgetting_factor), ..self }
     }
 }
 
@@ -55,17 +63,20 @@ pub enum Skip {
     DeadZone,
     /// a value of the sample is missing
     Missing,
+    /// the innovation is within what is known already
+    WithinBound,
 }
 
 impl Skip {
     /// Every reason; its position plus one is its code in a record of results (0: not skipped).
-    pub const ALL: &'static [Self] = &[Self::DeadZone, Self::Missing];
+    pub const ALL: &'static [Self] = &[Self::DeadZone, Self::Missing, Self::WithinBound];
 
     /// The reason in a word.
     pub fn word(self) -> &'static str {
         match self {
             Self::DeadZone => "dead_zone",
             Self::Missing => "missing",
+            Self::WithinBound => "within_bound",
         }
     }
 
@@ -86,6 +97,20 @@ pub trait Forgetting<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
     /// [`Error`] names the parameter, its value and the allowed range.
     fn configure(values: &dyn Values, memory: M) -> Result<Self, Error>;
 
+    /// The rule called `name`, where the type leaves a choice; else the same as `configure`.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] for a name that is not in the registry, else those of the rule.
+    fn called(name: &str, values: &dyn Values, memory: M) -> Result<Self, Error> {
+        let _ = name;
+        Self::configure(values, memory)
+    }
+
+    /// The registry name, where the type leaves a choice; else nothing.
+    fn name(&self) -> &'static str {
+        ""
+    }
+
     /// Names each parameter with its value: [`Forgetting::configure`] takes them back.
     fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>));
 
@@ -101,7 +126,7 @@ pub trait Forgetting<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
     ///
     /// The estimator then need not call [`Forgetting::forget`], which must do the same: it scales
     /// P while it measures.
-    #[inline(always)]
+    #[inline]
     fn scaling(&self, forgetting_factor: M::Real) -> Option<M::Real> {
         let _ = forgetting_factor;
         None
@@ -114,39 +139,34 @@ pub trait Forgetting<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
     fn forget(&self, state: &mut Self::State, step: Step<'_, '_, M>) -> Result<Forgotten, Error>;
 }
 
-macro_rules! registry {
-    ($($module:ident :: $Rule:ident,)*) => {
-        $(
-            pub mod $module;
-            pub use $module::$Rule;
-        )*
-
-        /// Every rule: its name, parameters, guarantees and documentation.
-        pub const RULES: &[About] = &[$($module::ABOUT),*];
-
-        /// Any rule of the registry, chosen by name at run time.
+macro_rules! choice_of_rules {
+    ($Rule:ident, $State:ident, $which:literal: $($module:ident :: $Variant:ident,)*) => {
+        #[doc = concat!($which, ", chosen by name at run time.")]
         #[derive(Clone, Debug)]
         #[allow(missing_docs, reason = "each variant is the rule of that name")]
-        pub enum Rule<M: Memory> {
-            $($Rule($Rule<M>),)*
+        pub enum $Rule<M: Memory> {
+            $($Variant($Variant<M>),)*
         }
 
-        /// The state of any rule of the registry.
+        #[doc = concat!("The state of ", stringify!($Rule), ".")]
         #[derive(Clone, Debug)]
         #[allow(missing_docs, reason = "each variant is the state of the rule of that name")]
-        pub enum RuleState<M: Memory> {
-            $($Rule(<$Rule<M> as Forgetting<M>>::State),)*
+        pub enum $State<M: Memory> {
+            $($Variant(<$Variant<M> as Forgetting<M>>::State),)*
         }
 
-        impl<M: Memory> Rule<M> {
+        impl<M: Memory> $Rule<M> {
             /// The rule called `name`, with these parameter values.
             ///
             /// # Errors
-            /// [`Error::Unknown`] for a name that is not in the registry, else those of the rule.
+            /// [`Error::Unknown`] for a name that is not in the registry, [`Error::Value`] for
+            /// more rows than the rule takes, else those of the rule.
             pub fn named(name: &str, values: &dyn Values, memory: M) -> Result<Self, Error> {
                 match name {
                     $(stringify!($module) => {
-                        <$Rule<M> as Forgetting<M>>::configure(values, memory).map(Self::$Rule)
+                        $module::ABOUT.check_rows(memory.rows())?;
+                        <$Variant<M> as Forgetting<M>>::configure(values, memory)
+                            .map(Self::$Variant)
                     })*
                     _ => Err(Error::Unknown { parameter: "rule" }),
                 }
@@ -155,59 +175,68 @@ macro_rules! registry {
             /// The entry of this rule in [`RULES`].
             pub fn about(&self) -> About {
                 match self {
-                    $(Self::$Rule(_) => $module::ABOUT,)*
+                    $(Self::$Variant(_) => $module::ABOUT,)*
                 }
             }
         }
 
-        impl<M: Memory> State<M::Real> for RuleState<M> {
+        impl<M: Memory> State<M::Real> for $State<M> {
             fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
                 match self {
-                    $(Self::$Rule(state) => state.visit(visitor),)*
+                    $(Self::$Variant(state) => state.visit(visitor),)*
                 }
             }
         }
 
-        impl<M: Memory> Forgetting<M> for Rule<M> {
-            type State = RuleState<M>;
+        impl<M: Memory> Forgetting<M> for $Rule<M> {
+            type State = $State<M>;
 
             fn configure(_: &dyn Values, _: M) -> Result<Self, Error> {
                 Err(Error::Missing { parameter: "rule" })
             }
 
+            fn called(name: &str, values: &dyn Values, memory: M) -> Result<Self, Error> {
+                Self::named(name, values, memory)
+            }
+
+            fn name(&self) -> &'static str {
+                self.about().name
+            }
+
             fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>)) {
                 match self {
-                    $(Self::$Rule(rule) => rule.describe(each),)*
+                    $(Self::$Variant(rule) => rule.describe(each),)*
                 }
             }
 
             fn start(&self, memory: M) -> Self::State {
                 match self {
-                    $(Self::$Rule(rule) => RuleState::$Rule(rule.start(memory)),)*
+                    $(Self::$Variant(rule) => $State::$Variant(rule.start(memory)),)*
                 }
             }
 
             fn is_bounded(&self) -> bool {
                 match self {
-                    $(Self::$Rule(rule) => rule.is_bounded(),)*
+                    $(Self::$Variant(rule) => rule.is_bounded(),)*
                 }
             }
 
-            #[inline(always)]
+            #[inline]
             fn scaling(&self, forgetting_factor: M::Real) -> Option<M::Real> {
                 match self {
-                    $(Self::$Rule(rule) => rule.scaling(forgetting_factor),)*
+                    $(Self::$Variant(rule) => rule.scaling(forgetting_factor),)*
                 }
             }
 
-            #[inline(always)]
+            // not into every update: it is all the rules there are
+            #[inline(never)]
             fn forget(
                 &self,
                 state: &mut Self::State,
                 step: Step<'_, '_, M>,
             ) -> Result<Forgotten, Error> {
                 match (self, state) {
-                    $((Self::$Rule(rule), RuleState::$Rule(state)) => rule.forget(state, step),)*
+                    $((Self::$Variant(rule), $State::$Variant(state)) => rule.forget(state, step),)*
                     _ => Err(Error::State { reason: "the state is that of another rule" }),
                 }
             }
@@ -215,9 +244,51 @@ macro_rules! registry {
     };
 }
 
+macro_rules! registry {
+    (
+        around [$($wrapper:ident :: $Wrapper:ident),*]
+        $($module:ident :: $Rule:ident,)*
+    ) => {
+        $(
+            pub mod $module;
+            pub use $module::$Rule;
+        )*
+        $(
+            pub mod $wrapper;
+            pub use $wrapper::$Wrapper;
+        )*
+
+        /// Every rule: its name, parameters, guarantees and documentation.
+        pub const RULES: &[About] = &[$($module::ABOUT,)* $($wrapper::ABOUT),*];
+
+        choice_of_rules! {
+            Rule, RuleState, "Any rule of the registry":
+            $($module::$Rule,)* $($wrapper::$Wrapper,)*
+        }
+        choice_of_rules! {
+            InnerRule, InnerState, "Any rule that another can be put around":
+            $($module::$Rule,)*
+        }
+    };
+}
+
+// `around`: rules that take another rule as a parameter
 registry! {
+    around [covariance_resetting::CovarianceResetting]
     none::NoForgetting,
     exponential::Exponential,
     exponential_resetting::ExponentialResetting,
+    cyclic_resetting::CyclicResetting,
     subspace::Subspace,
+    directional::Directional,
+    oblique_projection::ObliqueProjection,
+    restricted::Restricted,
+    data_dependent::DataDependent,
+    component::Component,
+    random_walk::RandomWalk,
+    variable_direction::VariableDirection,
+    matrix_forgetting::MatrixForgetting,
+    efra::Efra,
+    constant_trace::ConstantTrace,
+    multiple::Multiple,
 }

@@ -63,12 +63,12 @@ impl<M: Memory> Forgetting<M> for NoForgetting<M> {
         true
     }
 
-    #[inline(always)]
+    #[inline]
     fn scaling(&self, _: M::Real) -> Option<M::Real> {
         Some(M::Real::ONE)
     }
 
-    #[inline(always)]
+    #[inline]
     fn forget(&self, (): &mut (), _: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         Ok(Forgotten::rank(0))
     }

@@ -84,7 +84,7 @@ impl<M: Memory> Forgetting<M> for Subspace<M> {
         true
     }
 
-    #[inline(always)]
+    #[inline]
     fn forget(&self, (): &mut (), mut step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         if step.sample.rows() > 1 {
             step.sample.orthogonalize();

@@ -1,7 +1,7 @@
 //! Reading a state. Nothing here trusts the bytes: a length is checked before it is used.
 
 use super::{AnyEstimator, AnyRate, AnyWeighting, Dynamic, Error, Estimator, Memory, Prior};
-use super::{Real, Rule, String, Value, Values, Vec, Visitor};
+use super::{Box, Real, Rule, String, Value, Values, Vec, Visitor};
 
 /// A place in the bytes, and whether they have run out.
 pub struct Reader<'a> {
@@ -53,7 +53,8 @@ impl<'a> Reader<'a> {
         text.map(String::from).map_err(|_| Error::State { reason: "a name in it is not text" })
     }
 
-    fn value(&mut self) -> Result<Given, Error> {
+    /// A value; one that is a choice in itself only at the first `level`.
+    fn value(&mut self, level: usize) -> Result<Given, Error> {
         match self.byte()? {
             0 => Ok(Given::Real(f64::from_le_bytes(self.array()?))),
             1 => self.word().map(Given::Word),
@@ -61,19 +62,22 @@ impl<'a> Reader<'a> {
                 let (rows, columns) = (self.size()?, self.size()?);
                 let bytes = self.take(rows.saturating_mul(columns).saturating_mul(8))?;
                 let number = |b: &[u8]| b.try_into().map_or(f64::NAN, f64::from_le_bytes);
-                Ok(Given::Matrix { rows, columns, elements: bytes.chunks(8).map(number).collect() })
+                let elements: Vec<f64> = bytes.chunks(8).map(number).collect();
+                let at = move |k: usize| elements.get(k).copied().unwrap_or(f64::NAN);
+                Ok(Given::Matrix { rows, columns, elements: Box::new(at) })
             }
+            3 if level == 0 => self.choice(1).map(|(name, values)| Given::Choice { name, values }),
             _ => Err(Error::State { reason: "a parameter in it is of an unknown kind" }),
         }
     }
 
     /// A name and its parameters.
-    fn choice(&mut self) -> Result<(String, Parameters), Error> {
+    fn choice(&mut self, level: usize) -> Result<(String, Parameters), Error> {
         let name = self.word()?;
         let count = self.byte()?;
         let mut parameters = Vec::new();
         for _ in 0..count {
-            parameters.push((self.word()?, self.value()?));
+            parameters.push((self.word()?, self.value(level)?));
         }
         Ok((name, Parameters(parameters)))
     }
@@ -82,42 +86,21 @@ impl<'a> Reader<'a> {
 enum Given {
     Real(f64),
     Word(String),
-    Matrix { rows: usize, columns: usize, elements: Vec<f64> },
+    Matrix { rows: usize, columns: usize, elements: Box<dyn Fn(usize) -> f64> },
+    Choice { name: String, values: Parameters },
 }
 
 struct Parameters(Vec<(String, Given)>);
 
-impl Parameters {
-    /// The elements of a matrix as a function, which [`Value`] wants.
-    fn with<R>(&self, use_values: impl FnOnce(&dyn Values) -> R) -> R {
-        let elements: Vec<_> = self.0.iter().map(|(_, given)| given.elements()).collect();
-        use_values(&Found { parameters: self, elements: &elements })
-    }
-}
-
-impl Given {
-    fn elements(&self) -> impl Fn(usize) -> f64 + '_ {
-        move |k| match self {
-            Self::Matrix { elements, .. } => elements.get(k).copied().unwrap_or(f64::NAN),
-            _ => f64::NAN,
-        }
-    }
-}
-
-struct Found<'a, E> {
-    parameters: &'a Parameters,
-    elements: &'a [E],
-}
-
-impl<E: Fn(usize) -> f64> Values for Found<'_, E> {
+impl Values for Parameters {
     fn get(&self, name: &str) -> Option<Value<'_>> {
-        let position = self.parameters.0.iter().position(|(known, _)| known == name)?;
-        Some(match &self.parameters.0[position].1 {
+        self.0.iter().find(|(known, _)| known == name).map(|(_, given)| match given {
             Given::Real(x) => Value::Real(*x),
             Given::Word(word) => Value::Word(word),
-            Given::Matrix { rows, columns, .. } => {
-                Value::Matrix { rows: *rows, columns: *columns, elements: &self.elements[position] }
+            Given::Matrix { rows, columns, elements } => {
+                Value::Matrix { rows: *rows, columns: *columns, elements }
             }
+            Given::Choice { name, values } => Value::Choice { name, values },
         })
     }
 }
@@ -130,12 +113,12 @@ pub fn header<T: Real>(reader: &mut Reader<'_>) -> Result<AnyEstimator<T>, Error
     let memory = Dynamic::new(reader.size()?, reader.size()?, reader.size()?)?;
     let form = reader.byte()?;
     let watched = reader.byte()? == 1;
-    let (name, parameters) = reader.choice()?;
-    let rule = parameters.with(|values| Rule::named(&name, values, memory))?;
-    let (name, parameters) = reader.choice()?;
-    let rate = parameters.with(|values| AnyRate::named(&name, values, memory))?;
-    let (name, parameters) = reader.choice()?;
-    let weighting = parameters.with(|values| AnyWeighting::named(&name, values, memory))?;
+    let (name, parameters) = reader.choice(0)?;
+    let rule = Rule::named(&name, &parameters, memory)?;
+    let (name, parameters) = reader.choice(0)?;
+    let rate = AnyRate::named(&name, &parameters, memory)?;
+    let (name, parameters) = reader.choice(0)?;
+    let weighting = AnyWeighting::named(&name, &parameters, memory)?;
     let numbers = memory.parameters() * (memory.targets() + 1) * T::BYTES;
     if reader.bytes.len() < numbers {
         return Err(Error::State { reason: "it is truncated" });

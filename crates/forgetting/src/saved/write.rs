@@ -1,10 +1,13 @@
 //! Writing a state.
 
-use super::{AnyEstimator, Forgetting, Memory, Rate, Real, Value, Vec, Visitor, Weighting};
+use super::{AnyEstimator, Error, Forgetting, Memory, Rate, Real, Value, Vec, Visitor, Weighting};
 use super::{MARK, VERSION};
 
 /// Everything before the numbers.
-pub fn header<T: Real>(estimator: &AnyEstimator<T>) -> Vec<u8> {
+///
+/// # Errors
+/// [`Error::Unsupported`] for a function, which is not data.
+pub fn header<T: Real>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
     let memory = estimator.prior().memory();
     let mut bytes = Vec::from(MARK.as_slice());
     bytes.extend_from_slice(&[VERSION, T::BYTES as u8]);
@@ -13,30 +16,32 @@ pub fn header<T: Real>(estimator: &AnyEstimator<T>) -> Vec<u8> {
     }
     bytes.push(estimator.prior().form());
     bytes.push(u8::from(estimator.health().is_some()));
-    choice(&mut bytes, estimator.rule().about().name, |each| estimator.rule().describe(each));
-    choice(&mut bytes, estimator.rate().about().name, |each| estimator.rate().describe(each));
-    choice(&mut bytes, estimator.weighting().about().name, |each| {
-        estimator.weighting().describe(each);
-    });
-    bytes
+    let (rule, rate, weighting) = (estimator.rule(), estimator.rate(), estimator.weighting());
+    let (of_rule, of_rate) = (rule.about().name, rate.about().name);
+    choice(&mut bytes, of_rule, |each| rule.describe(&mut |name, value| each(name, value)))?;
+    choice(&mut bytes, of_rate, |each| rate.describe(&mut |name, value| each(name, value)))?;
+    choice(&mut bytes, weighting.about().name, |each| {
+        weighting.describe(&mut |name, value| each(name, value));
+    })?;
+    Ok(bytes)
 }
 
 /// A name, then its parameters: their number, and each one's name and value.
 fn choice(
     bytes: &mut Vec<u8>,
     name: &str,
-    describe: impl Fn(&mut dyn FnMut(&'static str, Value<'_>)),
-) {
+    each: impl FnOnce(&mut dyn FnMut(&str, Value<'_>)),
+) -> Result<(), Error> {
     word(bytes, name);
-    let mut count = 0u8;
-    let position = bytes.len();
-    bytes.push(count);
-    describe(&mut |name, given| {
+    bytes.push(0);
+    let (position, mut count, mut outcome) = (bytes.len() - 1, 0, Ok(()));
+    each(&mut |name, given| {
         count += 1;
         word(bytes, name);
-        value(bytes, given);
+        outcome = outcome.and(value(bytes, given));
     });
     bytes[position] = count;
+    outcome
 }
 
 fn word(bytes: &mut Vec<u8>, word: &str) {
@@ -44,7 +49,7 @@ fn word(bytes: &mut Vec<u8>, word: &str) {
     bytes.extend_from_slice(word.as_bytes());
 }
 
-fn value(bytes: &mut Vec<u8>, value: Value<'_>) {
+fn value(bytes: &mut Vec<u8>, value: Value<'_>) -> Result<(), Error> {
     match value {
         Value::Real(x) => {
             bytes.push(0);
@@ -63,7 +68,17 @@ fn value(bytes: &mut Vec<u8>, value: Value<'_>) {
                 bytes.extend_from_slice(&elements(k).to_le_bytes());
             }
         }
+        Value::Choice { name, values } => {
+            bytes.push(3);
+            choice(bytes, name, |each| values.each(each))?;
+        }
+        Value::Function(_) => {
+            let reason = "an estimator that uses a function of yours cannot be saved: a function \
+                          is not data";
+            return Err(Error::Unsupported { reason });
+        }
     }
+    Ok(())
 }
 
 /// Appends the numbers of a state. `f32` numbers go through `f64` exactly.

@@ -3,6 +3,16 @@
 //! ```text
 //! w_k = 1
 //! ```
+//!
+//! | symbol | name | range | default |
+//! |---|---|---|---|
+//!
+//! - Influence is not bounded: an error twice as large moves θ twice as far.
+//! - Cost: none. State: none.
+//! - Use it when the noise is near to Gaussian, or Γ tells how good each sample is.
+//!
+//! Reference: B. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
+//! stability and robustness guarantees*, IEEE Transactions on Automatic Control, 2024, Theorem 1.
 
 use super::{AboutWeighting, Weighting};
 use crate::parameter::{Value, Values};
@@ -36,8 +46,12 @@ impl<M: Memory> Weighting<M> for Equal<M> {
 
     fn describe(&self, _: &mut dyn FnMut(&'static str, Value<'_>)) {}
 
-    #[inline(always)]
+    #[inline]
     fn weight(&self, _: &Evidence<'_, '_, M>) -> M::Real {
         M::Real::ONE
+    }
+
+    fn influence(&self, _: usize) -> Option<M::Real> {
+        None
     }
 }

@@ -2,7 +2,7 @@
 //! below. A weight w divides the sample's noise covariance: Γ ← Γ/w.
 
 use crate::parameter::{Parameter, Value, Values};
-use crate::rates::Evidence;
+use crate::rates::{Evidence, Needs};
 use crate::{Error, Memory};
 
 /// What the registry says of a weighting.
@@ -29,14 +29,18 @@ pub trait Weighting<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
     /// Names each parameter with its value: [`Weighting::configure`] takes them back.
     fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>));
 
-    /// Whether the weighting uses the leverage, which costs O(n²/2) more.
-    #[inline(always)]
-    fn needs_leverage(&self) -> bool {
-        false
+    /// What the weighting uses beside the errors.
+    #[inline]
+    fn needs(&self) -> Needs {
+        Needs::Errors
     }
 
-    /// w in (0, 1], from the whitened innovation.
+    /// w, positive, from the whitened innovation.
     fn weight(&self, evidence: &Evidence<'_, '_, M>) -> M::Real;
+
+    /// c ≥ w‖ē‖ for samples of `rows` rows, whatever their error, if there is such a c: then one
+    /// sample moves θ_i by at most c ‖(P̄φ̄ᵀ)_i‖.
+    fn influence(&self, rows: usize) -> Option<M::Real>;
 }
 
 macro_rules! registry {
@@ -90,17 +94,23 @@ macro_rules! registry {
                 }
             }
 
-            #[inline(always)]
-            fn needs_leverage(&self) -> bool {
+            #[inline]
+            fn needs(&self) -> Needs {
                 match self {
-                    $(Self::$Weighting(weighting) => weighting.needs_leverage(),)*
+                    $(Self::$Weighting(weighting) => weighting.needs(),)*
                 }
             }
 
-            #[inline(always)]
+            #[inline]
             fn weight(&self, evidence: &Evidence<'_, '_, M>) -> M::Real {
                 match self {
                     $(Self::$Weighting(weighting) => weighting.weight(evidence),)*
+                }
+            }
+
+            fn influence(&self, rows: usize) -> Option<M::Real> {
+                match self {
+                    $(Self::$Weighting(weighting) => weighting.influence(rows),)*
                 }
             }
         }
@@ -109,4 +119,6 @@ macro_rules! registry {
 
 registry! {
     equal::Equal,
+    huber::Huber,
+    student_t::StudentT,
 }

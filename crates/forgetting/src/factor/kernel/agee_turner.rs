@@ -12,7 +12,8 @@
 //! W. Murray and M. A. Saunders, *Methods for modifying matrix factorizations*, Mathematics of
 //! Computation 28, 1974, method C1.
 
-use super::block::{eliminate, load_triangle, with_width, PerColumn, BLOCK};
+use super::block::{eliminate, load_triangle, with_width, PerColumn};
+use super::layout::BLOCK;
 use crate::vector::Vector;
 use crate::{Kernel, Real};
 

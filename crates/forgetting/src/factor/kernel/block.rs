@@ -1,33 +1,17 @@
-//! Blocks of up to eight neighbouring columns of U: a rectangle of whole rows above a triangle.
+//! Sweeps over a block of up to eight neighbouring columns of U.
 //!
-//! ```text
-//! columns   j  j+1 ... j+C−1          j is a multiple of 8
-//!           ┌──────────────┐
-//! rows 0    │              │
-//!  ⋮        │  rectangle   │          swept in vectors of 8 or 16 rows, several columns a pass
-//! rows j−1  │              │
-//!           └──────────────┤
-//! rows j      ╲  triangle  │          one more vector, with the unit diagonal in it
-//!               ╲          │
-//! ```
-//!
-//! How many columns a pass takes depends on the registers of the machine. The order in which the
-//! terms of a sum are added, and in which the columns change a row, does not.
+//! A block is a matrix (see [`super::layout`]) that is swept in vectors of 8 or 16 rows, several
+//! columns a pass. The last eight rows are apart: they hold the triangle, and there may be less
+//! than eight of them in the vectors beside U. How many columns a pass takes depends on the
+//! registers of the machine. The order in which the terms of a sum are added, and in which the
+//! columns change a row, does not.
 
+use super::layout::{start, BLOCK};
 use crate::vector::{Vector, HALF};
 use crate::Real;
 
-/// The most columns of a block.
-pub const BLOCK: usize = HALF;
-
 /// A number for each column of a block.
 pub type PerColumn<T> = [T; BLOCK];
-
-/// Where column j of the packed triangle starts.
-#[inline(always)]
-pub fn start(j: usize) -> usize {
-    j * j.saturating_sub(1) / 2
-}
 
 /// Runs `$body` for groups of at most `GROUP` of `$width` columns, from the left: `$c` is the
 /// first column of a group, `C` their number, and `$group` what `$rows` yields for each.
@@ -138,15 +122,14 @@ fn splat<T: Real, V: Vector<T>, const C: usize>(numbers: [T; C]) -> [V; C] {
 }
 
 /// A column of a block: the chunks above its triangle, the half chunk that may follow them, and
-/// the triangle.
-type Column<'a, T> = (&'a [<T as Real>::Chunk], &'a [T], &'a [T]);
+/// the rows of the triangle.
+type Column<'a, T> = (&'a [<T as Real>::Chunk], &'a [T], &'a [T; HALF]);
 /// The same, to be written.
-type ColumnMut<'a, T> = (&'a mut [<T as Real>::Chunk], &'a mut [T], &'a mut [T]);
+type ColumnMut<'a, T> = (&'a mut [<T as Real>::Chunk], &'a mut [T], &'a mut [T; HALF]);
 
 /// Columns of the block that starts at column j, one after the other.
 struct Rows<C> {
     rest: C,
-    column: usize,
     j: usize,
 }
 
@@ -154,15 +137,15 @@ impl<'a, T: Real> Rows<&'a [T]> {
     /// From column `first` on.
     #[inline(always)]
     fn of(columns: &'a [T], first: usize, j: usize) -> Self {
-        Self { rest: &columns[start(first)..], column: first, j }
+        Self { rest: &columns[start(first)..], j }
     }
 
     #[inline(always)]
     fn next(&mut self) -> Column<'a, T> {
-        let (this, next) = self.rest.split_at(self.column);
-        (self.rest, self.column) = (next, self.column + 1);
-        let (rectangle, triangle) = this.split_at(self.j);
+        let (rectangle, rest) = self.rest.split_at(self.j);
         let (chunks, half) = T::chunks(rectangle);
+        let (triangle, rest) = split_first(rest);
+        self.rest = rest;
         (chunks, half, triangle)
     }
 }
@@ -171,16 +154,50 @@ impl<'a, T: Real> Rows<&'a mut [T]> {
     /// From column `first` on.
     #[inline(always)]
     fn of_mut(columns: &'a mut [T], first: usize, j: usize) -> Self {
-        Self { rest: &mut columns[start(first)..], column: first, j }
+        Self { rest: &mut columns[start(first)..], j }
     }
 
     #[inline(always)]
     fn next(&mut self) -> ColumnMut<'a, T> {
-        let (this, next) = core::mem::take(&mut self.rest).split_at_mut(self.column);
-        (self.rest, self.column) = (next, self.column + 1);
-        let (rectangle, triangle) = this.split_at_mut(self.j);
+        let (rectangle, rest) = core::mem::take(&mut self.rest).split_at_mut(self.j);
         let (chunks, half) = T::chunks_mut(rectangle);
+        let (triangle, rest) = split_first_mut(rest);
+        self.rest = rest;
         (chunks, half, triangle)
+    }
+}
+
+#[inline(always)]
+fn split_first<T>(rows: &[T]) -> (&[T; HALF], &[T]) {
+    match rows.split_first_chunk() {
+        Some(split) => split,
+        None => unreachable!("a column ends with eight rows"),
+    }
+}
+
+#[inline(always)]
+fn split_first_mut<T>(rows: &mut [T]) -> (&mut [T; HALF], &mut [T]) {
+    match rows.split_first_chunk_mut() {
+        Some(split) => split,
+        None => unreachable!("a column ends with eight rows"),
+    }
+}
+
+/// Those of a vector beside U that belong to the rows of the triangle: eight, or the last few.
+#[inline(always)]
+fn load<T: Real, V: Vector<T>>(numbers: &[T]) -> V {
+    match numbers.first_chunk() {
+        Some(eight) => V::load_half(eight),
+        None => V::load_first(numbers),
+    }
+}
+
+/// Writes them.
+#[inline(always)]
+fn store<T: Real, V: Vector<T>>(vector: V, numbers: &mut [T]) {
+    match numbers.first_chunk_mut() {
+        Some(eight) => vector.store_half(eight),
+        None => vector.store_first(numbers),
     }
 }
 
@@ -190,7 +207,7 @@ pub fn load_triangle<T: Real, const C: usize>(columns: &[T], j: usize) -> [[T; C
     let mut triangle = [[T::ZERO; C]; C];
     for c in 0..C {
         let from = start(j + c) + j;
-        let column = &columns[from..from + c];
+        let column = &columns[from..from + BLOCK];
         for i in 0..c {
             triangle[c][i] = column[i];
         }
@@ -207,7 +224,7 @@ pub fn store_triangle<T: Real, const C: usize>(
 ) {
     for c in 0..C {
         let to = start(j + c) + j;
-        let column = &mut columns[to..to + c];
+        let column = &mut columns[to..to + BLOCK];
         for i in 0..c {
             column[i] = triangle[c][i];
         }
@@ -224,7 +241,7 @@ pub fn dots<T: Real, V: Vector<T>, const GROUP: usize>(
 ) -> PerColumn<T> {
     let mut sums = [T::ZERO; BLOCK];
     groups_ascending!(width, c, group in Rows::of(columns, j + c, j) => {
-        let group = dot_group::<T, V, C>(group, &f[..j], &f[j..j + width], c);
+        let group = dot_group::<T, V, C>(group, &f[..j], &f[j..j + width]);
         sums[c..c + C].copy_from_slice(&group);
     });
     sums
@@ -235,7 +252,6 @@ fn dot_group<T: Real, V: Vector<T>, const C: usize>(
     mut columns: [Column<'_, T>; C],
     f: &[T],
     f_triangle: &[T],
-    first: usize,
 ) -> [T; C] {
     let (f, f_half) = T::chunks(f);
     for column in &mut columns {
@@ -248,15 +264,17 @@ fn dot_group<T: Real, V: Vector<T>, const C: usize>(
             sums[c] = V::load(&columns[c].0[i]).mul_add(x, sums[c]);
         }
     }
-    if f_half.len() == HALF {
-        let x = V::load_first(f_half);
+    if let Some(f) = f_half.first_chunk() {
+        let x = V::load_half(f);
         for c in 0..C {
-            sums[c] = V::load_first(&columns[c].1[..HALF]).mul_add(x, sums[c]);
+            if let Some(u) = columns[c].1.first_chunk() {
+                sums[c] = V::load_half(u).mul_add(x, sums[c]);
+            }
         }
     }
-    let x = V::load_first(f_triangle);
+    let x: V = load(f_triangle);
     for c in 0..C {
-        sums[c] = V::load_unit(&columns[c].2[..first + c]).mul_add(x, sums[c]);
+        sums[c] = V::load_half(columns[c].2).mul_add(x, sums[c]);
     }
     V::sums(sums)
 }
@@ -299,24 +317,24 @@ fn rotate_group<T: Real, V: Vector<T>, const C: usize>(
         }
         gain.store(&mut k[i]);
     }
-    if k_half.len() == HALF {
-        let mut gain = V::load_first(k_half);
+    if let Some(k) = k_half.first_chunk_mut() {
+        let mut gain = V::load_half(k);
         for c in 0..C {
-            let u = &mut columns[c].1[..HALF];
-            let before = V::load_first(u);
-            slope[c].mul_add(gain, before).store_first(u);
-            gain = v[c].mul_add(before, gain);
+            if let Some(u) = columns[c].1.first_chunk_mut() {
+                let before = V::load_half(u);
+                slope[c].mul_add(gain, before).store_half(u);
+                gain = v[c].mul_add(before, gain);
+            }
         }
-        gain.store_first(k_half);
+        gain.store_half(k);
     }
-    let mut gain = if first == 0 { V::splat(T::ZERO) } else { V::load_first(k_triangle) };
+    let mut gain = if first == 0 { V::splat(T::ZERO) } else { load(k_triangle) };
     for c in 0..C {
-        let u = &mut columns[c].2[..first + c];
-        let before = V::load_unit(u);
-        slope[c].mul_add(gain, before).store_first(u);
+        let before = V::load_half(columns[c].2);
+        slope[c].mul_add(gain, before).store_half(columns[c].2);
         gain = v[c].mul_add(before, gain);
     }
-    gain.store_first(k_triangle);
+    store(gain, k_triangle);
 }
 
 /// For each column of a block, from the right: `x` += (−s) u, then u += slope `x`.
@@ -331,7 +349,7 @@ pub fn eliminate<T: Real, V: Vector<T>, const GROUP: usize>(
     let (x, x_triangle) = x[..j + width].split_at_mut(j);
     groups_descending!(width, c, group in Rows::of_mut(columns, j + c, j) => {
         let factors = (part(slope, c), part(less_s, c));
-        eliminate_group::<T, V, C>(group, (&mut *x, &mut *x_triangle), factors, c);
+        eliminate_group::<T, V, C>(group, (&mut *x, &mut *x_triangle), factors);
     });
 }
 
@@ -340,7 +358,6 @@ fn eliminate_group<T: Real, V: Vector<T>, const C: usize>(
     mut columns: [ColumnMut<'_, T>; C],
     (x, x_triangle): (&mut [T], &mut [T]),
     (slope, less_s): ([T; C], [T; C]),
-    first: usize,
 ) {
     let (x, x_half) = T::chunks_mut(x);
     for column in &mut columns {
@@ -356,24 +373,24 @@ fn eliminate_group<T: Real, V: Vector<T>, const C: usize>(
         }
         rest.store(&mut x[i]);
     }
-    if x_half.len() == HALF {
-        let mut rest = V::load_first(x_half);
+    if let Some(x) = x_half.first_chunk_mut() {
+        let mut rest = V::load_half(x);
         for c in (0..C).rev() {
-            let u = &mut columns[c].1[..HALF];
-            let before = V::load_first(u);
-            rest = less_s[c].mul_add(before, rest);
-            slope[c].mul_add(rest, before).store_first(u);
+            if let Some(u) = columns[c].1.first_chunk_mut() {
+                let before = V::load_half(u);
+                rest = less_s[c].mul_add(before, rest);
+                slope[c].mul_add(rest, before).store_half(u);
+            }
         }
-        rest.store_first(x_half);
+        rest.store_half(x);
     }
-    let mut rest = V::load_first(x_triangle);
+    let mut rest: V = load(x_triangle);
     for c in (0..C).rev() {
-        let u = &mut columns[c].2[..first + c];
-        let before = V::load_unit(u);
+        let before = V::load_half(columns[c].2);
         rest = less_s[c].mul_add(before, rest);
-        slope[c].mul_add(rest, before).store_first(u);
+        slope[c].mul_add(rest, before).store_half(columns[c].2);
     }
-    rest.store_first(x_triangle);
+    store(rest, x_triangle);
 }
 
 /// `x` += c u for each column of a block and its factor c, from the right, above the triangle.
@@ -410,11 +427,13 @@ fn add_group<T: Real, V: Vector<T>, const C: usize>(
         }
         sum.store(&mut x[i]);
     }
-    if x_half.len() == HALF {
-        let mut sum = V::load_first(x_half);
+    if let Some(x) = x_half.first_chunk_mut() {
+        let mut sum = V::load_half(x);
         for c in (0..C).rev() {
-            sum = factors[c].mul_add(V::load_first(&columns[c].1[..HALF]), sum);
+            if let Some(u) = columns[c].1.first_chunk() {
+                sum = factors[c].mul_add(V::load_half(u), sum);
+            }
         }
-        sum.store_first(x_half);
+        sum.store_half(x);
     }
 }

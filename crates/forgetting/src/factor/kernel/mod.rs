@@ -1,7 +1,7 @@
 //! The loops over U: one function per operation, on plain slices.
 //!
-//! `columns` holds U above its unit diagonal, column j (j numbers) from j (j − 1) / 2 on; every
-//! inner loop runs along columns, over neighbouring numbers.
+//! `columns` holds the columns of U, each padded with zeros below its unit diagonal ([`start`]
+//! says where one starts); every inner loop runs along columns, over neighbouring numbers.
 //!
 //! Each loop is a [`Kernel`](crate::Kernel): the number type decides with which vectors and over
 //! how many columns at a time it runs. The bits of the result depend on neither.
@@ -9,25 +9,14 @@
 mod agee_turner;
 mod bierman;
 mod block;
+mod layout;
 mod long;
 mod triangular;
 
+pub use layout::{column, column_mut, length, set_identity, start, visit};
+
 use super::Measured;
 use crate::Real;
-
-/// Column j of the packed triangle.
-#[inline(always)]
-pub fn column<T>(columns: &[T], j: usize) -> &[T] {
-    let start = block::start(j);
-    &columns[start..start + j]
-}
-
-/// Column j of the packed triangle, to be written.
-#[inline(always)]
-pub fn column_mut<T>(columns: &mut [T], j: usize) -> &mut [T] {
-    let start = block::start(j);
-    &mut columns[start..start + j]
-}
 
 /// Σ aᵢ bᵢ over the shorter of the two, in 8 (f64) or 16 (f32) partial sums.
 #[inline(always)]

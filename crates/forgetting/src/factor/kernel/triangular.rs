@@ -1,6 +1,7 @@
 //! Products and solutions with U and Uᵀ, and f·P·fᵀ. O(n²/2) each.
 
-use super::block::{add_columns, dots, load_triangle, with_width, PerColumn, BLOCK};
+use super::block::{add_columns, dots, load_triangle, with_width, PerColumn};
+use super::layout::BLOCK;
 use crate::vector::Vector;
 use crate::{Kernel, Real};
 

@@ -1,0 +1,23 @@
+//! Replacing the factor by one that is block diagonal.
+
+use super::{kernel, Factor};
+use crate::Memory;
+
+impl<M: Memory> Factor<M> {
+    /// U ← I: what is left of P is its D. To be followed by [`Factor::put_block`]. O(n²).
+    pub fn clear_columns(&mut self) {
+        kernel::set_identity(self.columns.as_mut(), self.memory.parameters());
+    }
+
+    /// The block of P from parameter `start` on becomes the U D Uᵀ of this packed triangle and
+    /// this diagonal.
+    ///
+    /// Call [`Factor::reserve`] first, and keep D within range.
+    pub fn put_block(&mut self, start: usize, columns: &[M::Real], diagonal: &[M::Real]) {
+        self.diagonal.as_mut()[start..start + diagonal.len()].copy_from_slice(diagonal);
+        for j in 0..diagonal.len() {
+            let column = &mut kernel::column_mut(self.columns.as_mut(), start + j)[start..];
+            column.copy_from_slice(kernel::column(columns, j));
+        }
+    }
+}

@@ -1,0 +1,14 @@
+//! The state of a design that finds λ for the next sample and remembers nothing else.
+
+use crate::state::{State, Visitor};
+use crate::Real;
+
+/// The next λ.
+#[derive(Clone, Copy, Debug)]
+pub struct Next<T>(pub T);
+
+impl<T: Real> State<T> for Next<T> {
+    fn visit(&mut self, visitor: &mut dyn Visitor<T>) {
+        visitor.reals(core::slice::from_mut(&mut self.0));
+    }
+}

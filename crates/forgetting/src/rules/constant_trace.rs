@@ -1,0 +1,130 @@
+//! Holds the trace of P: what the data take away in some directions, all directions get back.
+//!
+//! ```text
+//! P₊ = P_k − K φ̄ P_k,  K = P_k φ̄ᵀ (I + φ̄ P_k φ̄ᵀ)⁻¹
+//! P_k+1 = c₁ P₊/tr(P₊) + c₂ I                 c₁ = n (level − floor), c₂ = floor
+//! ```
+//!
+//! The covariance that the estimator shows is P₊, after the data; the second line is applied
+//! when the next sample comes, whatever that sample is.
+//!
+//! | symbol | name | range | default |
+//! |---|---|---|---|
+//! | tr(P)/n | level | (floor, ∞) | 100 |
+//! | c₂ | floor | (0, ∞) | 0.01 |
+//!
+//! - Proper (A1): no. It can shrink P: where a direction has less variance than before, the
+//!   rule claims information that no sample brought.
+//! - P̄ bounded above without excitation (A2): always: floor·I ≤ P̄ ≤ (n·level − (n − 1)·floor) I.
+//! - P bounded below (A3): if φ is bounded.
+//! - Cost: O(n³), for adding c₂ I to the factor. State: P alone.
+//! - Use it where tracking must never slow down and noise is small. The gain stays high however
+//!   long the parameters rest.
+//!
+//! Reference: K. J. Åström, B. Wittenmark, *Adaptive Control*, 1995, chapter 11; as a case of
+//! Theorem 1, derived here.
+
+use super::{About, Claim, Forgetting, Forgotten, Step};
+use crate::parameter::{Parameter, Range, Value, Values};
+use crate::state::{State, Visitor};
+use crate::{Error, Memory, Real};
+
+const LEVEL: Parameter = Parameter::real(
+    "level",
+    100.0,
+    Range::POSITIVE,
+    "mean variance of the parameters, which is held (units of 1/phi^2); above floor",
+);
+const FLOOR: Parameter = Parameter::real(
+    "floor",
+    0.01,
+    Range::POSITIVE,
+    "least variance of any direction (units of 1/phi^2)",
+);
+
+/// The registry entry.
+pub const ABOUT: About = About {
+    name: "constant_trace",
+    type_name: "ConstantTrace",
+    source: include_str!("constant_trace.rs"),
+    parameters: &[LEVEL, FLOOR],
+    forgetting_factor: false,
+    largest_rows: None,
+    proper: Claim::No,
+    bounded_above: Claim::Always,
+    bounded_below: Claim::If("regressors bounded"),
+    cost: "O(n^3)",
+};
+
+/// Holds the trace of P; see [`self`](crate::rules::constant_trace).
+#[derive(Clone, Copy, Debug)]
+pub struct ConstantTrace<M: Memory> {
+    level: M::Real,
+    floor: M::Real,
+}
+
+/// Whether a sample was measured since the trace was held: 1 or 0.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Measured(u64);
+
+impl<M: Memory> ConstantTrace<M> {
+    /// With tr(P) = n·`level` and P ≥ `floor`·I.
+    ///
+    /// # Errors
+    /// [`Error::Value`] names the parameter that is out of range.
+    pub fn new(level: M::Real, floor: M::Real, memory: M) -> Result<Self, Error> {
+        let floor = FLOOR.check(floor)?;
+        let level = LEVEL.check(level)?;
+        if !(floor >= M::Real::FLOOR) {
+            return Err(Error::value(FLOOR.name, floor.to_f64(), "within the number type's range"));
+        }
+        if !(level > floor) {
+            return Err(Error::value(LEVEL.name, level.to_f64(), "above floor"));
+        }
+        // twice the trace, for rounding
+        let trace = level * M::Real::from_f64(2.0 * memory.parameters() as f64);
+        if !(trace < M::Real::CEILING) {
+            return Err(Error::value(LEVEL.name, level.to_f64(), "within the number type's range"));
+        }
+        Ok(Self { level, floor })
+    }
+}
+
+impl<M: Memory> Forgetting<M> for ConstantTrace<M> {
+    type State = Measured;
+
+    fn configure(values: &dyn Values, memory: M) -> Result<Self, Error> {
+        Self::new(LEVEL.number(values)?, FLOOR.number(values)?, memory)
+    }
+
+    fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>)) {
+        each(LEVEL.name, Value::Real(self.level.to_f64()));
+        each(FLOOR.name, Value::Real(self.floor.to_f64()));
+    }
+
+    fn start(&self, _: M) -> Measured {
+        Measured(0)
+    }
+
+    fn forget(&self, state: &mut Measured, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
+        if state.0 == 0 {
+            state.0 = 1;
+            return Ok(Forgotten::rank(0));
+        }
+        let n = step.factor.parameters();
+        let c = M::Real::from_f64(n as f64);
+        let shared = c * (self.level - self.floor);
+        step.factor.hold_trace(shared);
+        step.factor.reserve(M::Real::ONE, c * self.floor)?;
+        let variances = &mut step.work.first.as_mut()[..n];
+        variances.fill(self.floor);
+        step.factor.add_diagonal(variances, step.work.gain.as_mut());
+        Ok(Forgotten::rank(n))
+    }
+}
+
+impl<T: Real> State<T> for Measured {
+    fn visit(&mut self, visitor: &mut dyn Visitor<T>) {
+        visitor.whole(&mut self.0);
+    }
+}

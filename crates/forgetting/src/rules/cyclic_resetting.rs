@@ -1,0 +1,161 @@
+//! Forgets towards a fixed information matrix, one of its directions at each sample, in O(n²).
+//!
+//! ```text
+//! R_∞ = Σ_j w_j w_jᵀ, j = 0 … r − 1        the rows of its root; at sample k, j = k mod r:
+//! v_k = √((1 − λ_kʳ) / λ_kʳ⁻¹⁻ʲ) w_j
+//! F_k = (1 − λ_k) R_k − v_k v_kᵀ           Lai & Bernstein (CR-RLS)
+//! R̄ = λ R + v vᵀ                           the form used: D ← D / λ, then one information row
+//! ```
+//!
+//! | symbol | name | range | default |
+//! |---|---|---|---|
+//! | R_∞ | information | a number c ≥ 0 (c·I), n numbers ≥ 0 or an n x n positive semidefinite matrix | 0.01 |
+//!
+//! A diagonal R_∞ is taken in the order of its elements, a full one in the order of the pivots
+//! of Cholesky's factorization with diagonal pivots. k counts the samples used.
+//!
+//! - Proper (A1): no. One cycle without data is R → λʳ R + (1 − λʳ) R_∞ exactly, but within it
+//!   information is added before it is due.
+//! - P̄ bounded above without excitation (A2): if R_∞ > 0.
+//! - P bounded below (A3): if λ_k ≤ λ_max < 1 and φ is bounded.
+//! - Cost: O((p + 1) n²). State: P and the place in the cycle.
+//! - Use it in the place of `exponential_resetting` when n is large. With λ_k that varies within
+//!   a cycle the inserted weights are those of each sample's λ_k, and the cycle is approximate.
+//!
+//! Reference: A. Lai, D. S. Bernstein, *Exponential resetting and cyclic resetting recursive
+//! least squares*, IEEE Control Systems Letters 7, 2023.
+
+use super::{About, Claim, Forgetting, Forgotten, Step};
+use crate::factor::kernel::dot;
+use crate::parameter::{Kind, Parameter, Range, Value, Values};
+use crate::root::Root;
+use crate::state::{State, Visitor};
+use crate::{Error, Memory, Real};
+
+const INFORMATION: Parameter = Parameter::elements(
+    "information",
+    Kind::Matrix,
+    0.01,
+    Range::NON_NEGATIVE,
+    "information that silence returns to: c for c*I, n numbers for a diagonal, or n x n",
+);
+
+/// The registry entry.
+pub const ABOUT: About = About {
+    name: "cyclic_resetting",
+    type_name: "CyclicResetting",
+    source: include_str!("cyclic_resetting.rs"),
+    parameters: &[INFORMATION],
+    forgetting_factor: true,
+    largest_rows: None,
+    proper: Claim::No,
+    bounded_above: Claim::If("information is positive definite"),
+    bounded_below: Claim::If("forgetting factor <= lambda_max < 1, regressors bounded"),
+    cost: "O((p + 1) n^2)",
+};
+
+/// Forgets towards R_∞ in cycles; see [`self`](crate::rules::cyclic_resetting).
+#[derive(Clone, Debug)]
+pub struct CyclicResetting<M: Memory> {
+    information: Root<M>,
+}
+
+/// The place in the cycle.
+#[derive(Clone, Copy, Debug)]
+pub struct Cycle {
+    position: u64,
+}
+
+impl<T: Real> State<T> for Cycle {
+    fn visit(&mut self, visitor: &mut dyn Visitor<T>) {
+        visitor.whole(&mut self.position);
+    }
+}
+
+impl<M: Memory> CyclicResetting<M> {
+    /// Towards the information matrix with this root.
+    pub fn new(information: Root<M>) -> Self {
+        Self { information }
+    }
+}
+
+impl<M: Memory> Forgetting<M> for CyclicResetting<M> {
+    type State = Cycle;
+
+    fn configure(values: &dyn Values, memory: M) -> Result<Self, Error> {
+        Root::configure(&INFORMATION, values, memory).map(Self::new)
+    }
+
+    fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>)) {
+        self.information.describe(INFORMATION.name, each);
+    }
+
+    fn start(&self, _: M) -> Cycle {
+        Cycle { position: 0 }
+    }
+
+    fn is_bounded(&self) -> bool {
+        self.information.rank() == self.information.parameters()
+    }
+
+    #[inline]
+    fn forget(&self, cycle: &mut Cycle, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
+        let (lambda, n) = (step.forgetting_factor, step.factor.parameters());
+        let rank = self.information.rank();
+        if lambda < M::Real::ONE {
+            step.factor.scale(M::Real::ONE / lambda)?;
+        }
+        if rank == 0 {
+            return Ok(Forgotten::rank(if lambda < M::Real::ONE { n } else { 0 }));
+        }
+        // a position out of the cycle can only come from a saved state that was tampered with
+        let j = (cycle.position % rank as u64) as usize;
+        cycle.position = ((j + 1) % rank) as u64;
+        if lambda >= M::Real::ONE {
+            return Ok(Forgotten::rank(0));
+        }
+        let row = self.information.row(j);
+        let weight = insertion_weight(lambda, rank, j, row);
+        let scaled = &mut step.work.first.as_mut()[..n];
+        for (x, &w) in scaled.iter_mut().zip(row) {
+            *x = weight * w;
+        }
+        step.factor.add_information(scaled, step.work.gain.as_mut());
+        Ok(Forgotten::rank(n))
+    }
+}
+
+/// √((1 − λʳ) / λ^(r−1−j)), but no more than makes of `row` the largest regressor that an update
+/// can take.
+fn insertion_weight<T: Real>(lambda: T, rank: usize, j: usize, row: &[T]) -> T {
+    let power = |exponent: usize| (0..exponent).fold(T::ONE, |product, _| product * lambda);
+    let weight = (T::ONE - power(rank)) / power(rank - 1 - j).max(T::FLOOR);
+    weight.min(T::CEILING / dot(row, row).max(T::FLOOR)).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::parameter::Defaults;
+    use crate::testing::{covariance, forget, memory, Dense};
+
+    #[test]
+    fn one_cycle_without_data_is_exact() {
+        let (mut p, silence) = (covariance(), Dense::new(1, &[0.0; 3]));
+        let rule = CyclicResetting::configure(&Defaults, memory(&silence, 1)).unwrap();
+        let mut cycle = Cycle { position: 0 };
+        let kept = 0.9f64.powi(3);
+        let expected = kept * p.inverse() + (1.0 - kept) * 0.01 * Dense::identity(3);
+        for _ in 0..3 {
+            p = forget(&rule, &mut cycle, &p, &silence, 0.9).covariance;
+        }
+        assert!(p.inverse().distance(&expected) < 1e-14);
+        assert_eq!(cycle.position, 0);
+    }
+
+    #[test]
+    fn the_information_inserted_fits_the_number_type() {
+        let row = [1.0f32, 1.0];
+        assert!(insertion_weight(1e-30, 2, 0, &row).powi(2) * 2.0 <= f32::CEILING * 1.001);
+    }
+}

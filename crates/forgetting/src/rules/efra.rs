@@ -1,0 +1,179 @@
+//! Exponential forgetting and resetting (EFRA): P grows as if forgetting, but saturates at a known bound.
+//!
+//! ```text
+//! K = a P φ̄ᵀ/(1 + s),  s = φ̄ P φ̄ᵀ                          EFRA, one row
+//! P_k+1 = P_k/λ_k − K φ̄ P_k + b I − d P_k²
+//! Γ_k = 1/a + s (1/a − 1), then                             the form used: a measurement with
+//! P_k+1 = P₊ + Σ_i max(0, g p_i + b − d p_i²) v_i v_iᵀ      this noise, then a dyad for each
+//!                                                           eigenpair (p_i, v_i) of P_k;
+//!                                                           g = (1 − λ_k)/λ_k
+//! ```
+//!
+//! The covariance that the estimator shows is P₊, after the data; what a sample adds to P is
+//! added when the next one comes. The published map has no max: it is the same while
+//! P ≤ σ_max I, σ_max = g/(2d)·(1 + √(1 + 4bd/g²)), which P₀ ≤ σ_max I guarantees for a constant λ
+//! with g² + 4bd ≤ 1. λ_k = 1 is plain least squares, a, b and d left out.
+//!
+//! | symbol | name | range | default |
+//! |---|---|---|---|
+//! | a | gain | (0, 1] | 0.5 |
+//! | b | increase | [0, ∞) | 0.005 |
+//! | d | saturation | (0, ∞) | 0.0001 |
+//!
+//! - Proper (A1): always.
+//! - P̄ bounded above without excitation (A2): if λ_k ≥ λ_min > 0, by the larger of P₀ and
+//!   b + (1 + g)²/(4d); by σ_max where the published map applies. Silence takes P to σ_max I.
+//! - P bounded below (A3): if λ_k ≤ λ_max < 1 and φ is bounded.
+//! - Cost: O(n³). State: P, n eigenvectors and n numbers.
+//! - Use it for one output, where P must stay below a bound that is stated beforehand, with
+//!   P₀ at or below it.
+//!
+//! Reference: M. E. Salgado, G. C. Goodwin, R. H. Middleton, *Modified least squares algorithm
+//! incorporating exponential resetting and forgetting*, International Journal of Control 47,
+//! 1988; as a case of Theorem 1, derived here.
+
+use super::{About, Claim, Forgetting, Forgotten, Step};
+use crate::parameter::{Parameter, Range, Value, Values};
+use crate::spectrum::Spectrum;
+use crate::state::{State, Visitor};
+use crate::{Error, Memory, Real};
+
+const GAIN: Parameter =
+    Parameter::real("gain", 0.5, Range::FRACTION, "share of the least-squares gain that is used");
+const INCREASE: Parameter = Parameter::real(
+    "increase",
+    0.005,
+    Range::NON_NEGATIVE,
+    "what every sample adds to the covariance in every direction (units of 1/phi^2)",
+);
+const SATURATION: Parameter = Parameter::real(
+    "saturation",
+    1e-4,
+    Range::POSITIVE,
+    "how strongly a large covariance is held back (units of phi^2)",
+);
+
+/// The registry entry.
+pub const ABOUT: About = About {
+    name: "efra",
+    type_name: "Efra",
+    source: include_str!("efra.rs"),
+    parameters: &[GAIN, INCREASE, SATURATION],
+    forgetting_factor: true,
+    largest_rows: Some(1),
+    proper: Claim::Always,
+    bounded_above: Claim::If("forgetting factor >= lambda_min > 0"),
+    bounded_below: Claim::If("forgetting factor <= lambda_max < 1, regressors bounded"),
+    cost: "O(n^3)",
+};
+
+/// Exponential forgetting and resetting; see [`self`](crate::rules::efra).
+#[derive(Clone, Copy, Debug)]
+pub struct Efra<M: Memory> {
+    gain: M::Real,
+    increase: M::Real,
+    saturation: M::Real,
+}
+
+/// What the last sample adds to P.
+#[derive(Clone, Debug)]
+pub struct Pending<M: Memory> {
+    spectrum: Spectrum<M>,
+    /// the weight of each eigenvector
+    added: M::Vector,
+}
+
+impl<M: Memory> Efra<M> {
+    /// With a = `gain`, b = `increase` and d = `saturation`.
+    ///
+    /// # Errors
+    /// [`Error::Value`] names the parameter that is out of range.
+    pub fn new(gain: M::Real, increase: M::Real, saturation: M::Real) -> Result<Self, Error> {
+        for (parameter, value) in [(INCREASE, increase), (SATURATION, saturation)] {
+            if !(value <= M::Real::CEILING) {
+                return Err(Error::value(parameter.name, value.to_f64(), parameter.range.words));
+            }
+        }
+        Ok(Self {
+            gain: GAIN.check(gain)?,
+            increase: INCREASE.check(increase)?,
+            saturation: SATURATION.check(saturation)?,
+        })
+    }
+
+    /// Refuses a forgetting factor so small that P could leave the range at the next sample.
+    #[inline]
+    fn check_growth(&self, growth: M::Real, n: usize) -> Result<(), Error> {
+        let four = M::Real::from_f64(4.0);
+        let most = self.increase + growth * (growth / (four * self.saturation));
+        let limit = M::Real::CEILING / (four * M::Real::from_f64(n as f64));
+        if most < limit {
+            return Ok(());
+        }
+        let (value, limit) = (most.to_f64(), limit.to_f64());
+        Err(Error::Range { parameter: "covariance (its growth)", value, limit })
+    }
+}
+
+impl<M: Memory> Forgetting<M> for Efra<M> {
+    type State = Pending<M>;
+
+    fn configure(values: &dyn Values, _: M) -> Result<Self, Error> {
+        Self::new(GAIN.number(values)?, INCREASE.number(values)?, SATURATION.number(values)?)
+    }
+
+    fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>)) {
+        each(GAIN.name, Value::Real(self.gain.to_f64()));
+        each(INCREASE.name, Value::Real(self.increase.to_f64()));
+        each(SATURATION.name, Value::Real(self.saturation.to_f64()));
+    }
+
+    fn start(&self, memory: M) -> Pending<M> {
+        Pending { spectrum: Spectrum::new(memory), added: memory.vector() }
+    }
+
+    fn forget(
+        &self,
+        state: &mut Pending<M>,
+        step: Step<'_, '_, M>,
+    ) -> Result<Forgotten, Error> {
+        let (lambda, n) = (step.forgetting_factor, step.factor.parameters());
+        let growth = (M::Real::ONE - lambda) / lambda;
+        self.check_growth(growth, n)?;
+        let Pending { spectrum, added } = state;
+        let total = added.as_ref().iter().fold(M::Real::ZERO, |sum, &x| sum + x);
+        let mut rank = 0;
+        if total > M::Real::ZERO {
+            step.factor.reserve(M::Real::ONE, total)?;
+            for (i, &weight) in added.as_ref().iter().enumerate() {
+                if weight > M::Real::ZERO {
+                    let direction = step.work.gain.as_mut();
+                    direction.copy_from_slice(spectrum.vector(i));
+                    step.factor.add_covariance(direction, weight);
+                    rank += 1;
+                }
+            }
+        }
+        added.as_mut().fill(M::Real::ZERO);
+        if lambda < M::Real::ONE {
+            spectrum.renew(step.factor);
+            for (added, &r) in added.as_mut().iter_mut().zip(spectrum.information()) {
+                let p = M::Real::ONE / r;
+                *added = (growth * p + self.increase - self.saturation * p * p).max(M::Real::ZERO);
+            }
+            let (one, leverage) = (M::Real::ONE, step.factor.leverage(step.sample.row(0)));
+            let noise = one / self.gain + leverage * (one / self.gain - one);
+            if noise != one {
+                step.sample.scale(one / noise.sqrt());
+            }
+        }
+        Ok(Forgotten::rank(rank))
+    }
+}
+
+impl<M: Memory> State<M::Real> for Pending<M> {
+    fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
+        self.spectrum.visit(visitor);
+        visitor.reals(self.added.as_mut());
+    }
+}

@@ -1,0 +1,201 @@
+//! Forgets each eigenvalue of the information matrix by a function of its own that holds it at α.
+//!
+//! ```text
+//! F_k = (1 − λ_k) (I − α P_k)ᴺ R_k                        choice 1: tutorial (S2)
+//! F_k = (1 − λ_k) (R_k − α I)ᴺ (R_k + β I)⁻ᴺ R_k          choice 2: tutorial (S3)
+//! r̄ = r (1 − (1 − λ_k) bᴺ),  b = 1 − α/r                  the form used: each eigenvalue r of R
+//!                        or  b = (r − α)/(r + β)          by itself, along its eigenvector a
+//!                                                         dyad for b > 0, a row for b < 0
+//! ```
+//!
+//! | symbol | name | range | default |
+//! |---|---|---|---|
+//! | α | information | (0, ∞) | 0.01 |
+//! | N | power | odd whole numbers, 1 to 99 | 1 |
+//! | | choice | 1 or 2 | 1 |
+//! | β | shift | [0, ∞), with choice 2 | 0 |
+//!
+//! - Proper (A1): if R₀ ≥ α I; R_k ≥ α I then holds for ever.
+//! - P̄ bounded above without excitation (A2): always: R_k ≥ min(λ_min(R₀), α) I.
+//! - P bounded below (A3): if λ_k ≤ λ_max < 1 and φ is bounded.
+//! - Cost: O(n³). State: P and the eigenvectors and eigenvalues of P⁻¹; none for N = 1,
+//!   choice 1, which costs what `exponential_resetting` does.
+//! - N = 1 with choice 1 is `exponential_resetting` with α I, bit for bit. For N ≥ 3, what lies
+//!   near α is hardly touched: the return to α is slower than any exponential, and information
+//!   well below α may jump beyond it. β > 0 bounds the jump.
+//!
+//! Reference: A. Goel, A. L. Bruce, D. S. Bernstein, *Recursive least squares with
+//! variable-direction forgetting*, IEEE Control Systems Magazine 40(4), 2020, sidebar "Toward
+//! matrix forgetting"; after G. Kreisselmeier, *Stabilized least-squares type adaptive
+//! identifiers*, IEEE Transactions on Automatic Control 35, 1990.
+
+use super::{About, Claim, ExponentialResetting, Forgetting, Forgotten, Step};
+use crate::factor::kernel::add_scaled;
+use crate::parameter::{Parameter, Range, Value, Values};
+use crate::root::Root;
+use crate::spectrum::Spectrum;
+use crate::{Error, Memory, Real};
+
+const INFORMATION: Parameter = Parameter::real(
+    "information",
+    0.01,
+    Range::POSITIVE,
+    "information that silence returns to, in every direction (units of phi^2)",
+);
+const POWER: Parameter = Parameter::whole(
+    "power",
+    1.0,
+    Range::closed(1.0, 99.0, "odd whole numbers from 1 to 99"),
+    "how flat forgetting is near that information; odd",
+);
+const CHOICE: Parameter = Parameter::whole(
+    "choice",
+    1.0,
+    Range::closed(1.0, 2.0, "1 or 2"),
+    "which of the two published functions",
+);
+const SHIFT: Parameter = Parameter::real(
+    "shift",
+    0.0,
+    Range::NON_NEGATIVE,
+    "bounds how far small information can jump; with choice 2 only (units of phi^2)",
+);
+
+/// The registry entry.
+pub const ABOUT: About = About {
+    name: "matrix_forgetting",
+    type_name: "MatrixForgetting",
+    source: include_str!("matrix_forgetting.rs"),
+    parameters: &[INFORMATION, POWER, CHOICE, SHIFT],
+    forgetting_factor: true,
+    largest_rows: None,
+    proper: Claim::If("R_0 >= information * I"),
+    bounded_above: Claim::Always,
+    bounded_below: Claim::If("forgetting factor <= lambda_max < 1, regressors bounded"),
+    cost: "O(n^3)",
+};
+
+/// Forgets eigenvalue by eigenvalue; see [`self`](crate::rules::matrix_forgetting).
+#[derive(Clone, Debug)]
+pub struct MatrixForgetting<M: Memory> {
+    information: M::Real,
+    power: usize,
+    /// β; none with choice 1
+    shift: Option<M::Real>,
+    resetting: ExponentialResetting<M>,
+}
+
+impl<M: Memory> MatrixForgetting<M> {
+    /// Choice 1, (S2), with α = `information` and N = `power`.
+    ///
+    /// # Errors
+    /// [`Error::Value`] names the parameter that is out of range.
+    pub fn new(information: M::Real, power: usize, memory: M) -> Result<Self, Error> {
+        let information = INFORMATION.check(information)?;
+        if !(information >= M::Real::FLOOR && information <= M::Real::CEILING) {
+            return Err(Error::value(INFORMATION.name, information.to_f64(), "within range"));
+        }
+        POWER.check(power as f64)?;
+        if power % 2 == 0 {
+            return Err(Error::value(POWER.name, power as f64, POWER.range.words));
+        }
+        let root = Root::scalar(&INFORMATION, information, memory)?;
+        Ok(Self { information, power, shift: None, resetting: ExponentialResetting::new(root) })
+    }
+
+    /// Choice 2, (S3), with β = `shift`.
+    ///
+    /// # Errors
+    /// [`Error::Value`] unless `shift` is at least 0.
+    pub fn with_shift(self, shift: M::Real) -> Result<Self, Error> {
+        let shift = SHIFT.check(shift)?;
+        if !(shift <= M::Real::CEILING) {
+            return Err(Error::value(SHIFT.name, shift.to_f64(), "within range"));
+        }
+        Ok(Self { shift: Some(shift), ..self })
+    }
+
+    /// bᴺ for the eigenvalue r of R.
+    #[inline]
+    fn share(&self, r: M::Real) -> M::Real {
+        let base = match self.shift {
+            None => M::Real::ONE - self.information / r,
+            Some(shift) => (r - self.information) / (r + shift),
+        };
+        (1..self.power).fold(base, |product, _| product * base)
+    }
+
+    /// Forgets along eigenvector i.
+    #[inline]
+    fn forget_along(&self, spectrum: &mut Spectrum<M>, step: &mut Step<'_, '_, M>, i: usize) {
+        let r = spectrum.information()[i];
+        let lost = (M::Real::ONE - step.forgetting_factor) * self.share(r);
+        let direction = &mut step.work.first.as_mut()[..step.factor.parameters()];
+        if lost > M::Real::ZERO {
+            direction.copy_from_slice(spectrum.vector(i));
+            step.factor.add_covariance(direction, lost / ((M::Real::ONE - lost) * r));
+        } else if lost < M::Real::ZERO {
+            let gained = (-lost * r).min(M::Real::CEILING);
+            direction.fill(M::Real::ZERO);
+            add_scaled(direction, gained.sqrt(), spectrum.vector(i));
+            step.factor.add_information(direction, step.work.gain.as_mut());
+        }
+        spectrum.set_information(i, r - lost * r);
+    }
+}
+
+impl<M: Memory> Forgetting<M> for MatrixForgetting<M> {
+    type State = Spectrum<M>;
+
+    fn configure(values: &dyn Values, memory: M) -> Result<Self, Error> {
+        let power: f64 = POWER.number(values)?;
+        let rule = Self::new(INFORMATION.number(values)?, power as usize, memory)?;
+        let (choice, shift): (f64, _) = (CHOICE.number(values)?, SHIFT.number(values)?);
+        if choice > 1.0 {
+            return rule.with_shift(shift);
+        }
+        if shift > M::Real::ZERO {
+            return Err(Error::value(SHIFT.name, shift.to_f64(), "0 with choice 1"));
+        }
+        Ok(rule)
+    }
+
+    fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>)) {
+        let choice = if self.shift.is_some() { 2.0 } else { 1.0 };
+        each(INFORMATION.name, Value::Real(self.information.to_f64()));
+        each(POWER.name, Value::Real(self.power as f64));
+        each(CHOICE.name, Value::Real(choice));
+        each(SHIFT.name, Value::Real(self.shift.map_or(0.0, |shift| shift.to_f64())));
+    }
+
+    fn start(&self, memory: M) -> Spectrum<M> {
+        Spectrum::new(memory)
+    }
+
+    #[inline]
+    fn forget(
+        &self,
+        spectrum: &mut Spectrum<M>,
+        mut step: Step<'_, '_, M>,
+    ) -> Result<Forgotten, Error> {
+        if self.power == 1 && self.shift.is_none() {
+            return self.resetting.forget(&mut (), step);
+        }
+        let (lambda, n) = (step.forgetting_factor, step.factor.parameters());
+        let forgets = lambda < M::Real::ONE;
+        if forgets {
+            // P̄ ≤ P/λ; from here on nothing can fail
+            step.factor.reserve(M::Real::ONE / lambda, M::Real::ZERO)?;
+        }
+        spectrum.follow(step.factor);
+        if forgets {
+            for i in 0..n {
+                self.forget_along(spectrum, &mut step, i);
+            }
+        }
+        for i in 0..step.sample.rows() {
+            spectrum.learn(step.sample.row(i));
+        }
+        Ok(Forgotten::rank(if forgets { n } else { 0 }))
+    }
+}

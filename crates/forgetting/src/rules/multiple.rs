@@ -1,0 +1,251 @@
+//! Forgets parameters, or blocks of them, each at its own rate, and keeps no information between blocks.
+//!
+//! ```text
+//! F_k = R_k − blkdiag(λ_b R_bb,k)          GF-RLS (74)–(83), there for two parameters
+//! R̄_bb = λ_b R_bb, no information else     the form used: a factor of R_bb⁻¹ for each block,
+//!                                          D_b ← D_b/λ_b, then the rows φ̄_b of the sample
+//! P₊ = (R̄ + φ̄ᵀφ̄)⁻¹                         the covariance shown, (79)
+//! ```
+//!
+//! | symbol | name | range | default |
+//! |---|---|---|---|
+//! | λ_b | factors | (0, 1], one number or one a block | 0.99 |
+//! | | blocks | whole numbers ≥ 1: a size for all, or sizes that add up to n | 1 |
+//!
+//! - Proper (A1): if the correlation matrix of R_k, with its blocks normalized to I, is at least
+//!   blkdiag(λ_b I); for two parameters: (1 − λ₁)(1 − λ₂) ≥ R₁₂²/(R₁₁R₂₂). That fails as soon as
+//!   regressors are correlated and factors near 1. `component` is always proper.
+//! - P̄ bounded above without excitation (A2): no: a block without excitation winds up.
+//! - P bounded below (A3): if λ_b ≤ λ_max < 1 and φ is bounded.
+//! - Cost: O(p n²), of which the rule itself takes O(n²), or O(p Σ n_b²) and writing U anew.
+//!   State: P and a factor of each block.
+//! - Use it to reproduce work that used it. It treats the blocks as if they were uncorrelated,
+//!   even with every factor 1.
+//!
+//! Reference: A. Vahidi, A. Stefanopoulou, H. Peng, *Recursive least squares with forgetting for
+//! online estimation of vehicle mass and road grade: theory and experiments*, Vehicle System
+//! Dynamics 43, 2005; A. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
+//! stability and robustness guarantees*, IEEE Transactions on Automatic Control, 2024, V-J.
+
+use super::{About, Claim, Forgetting, Forgotten, Step};
+use crate::factor::kernel::{self, add_scaled, bierman, dot, length, set_identity};
+use crate::parameter::{Kind, Parameter, Range, Value, Values};
+use crate::state::{State, Visitor};
+use crate::{Error, Factor, Memory, Real};
+
+const FACTORS: Parameter = Parameter::elements(
+    "factors",
+    Kind::List,
+    0.99,
+    Range::FRACTION,
+    "forgetting factor of each block: one number, or one a block",
+);
+const BLOCKS: Parameter = Parameter::elements(
+    "blocks",
+    Kind::List,
+    1.0,
+    Range::AT_LEAST_ONE,
+    "sizes of consecutive blocks of parameters: one for all, or sizes that add up to n",
+);
+
+/// The registry entry.
+pub const ABOUT: About = About {
+    name: "multiple",
+    type_name: "Multiple",
+    source: include_str!("multiple.rs"),
+    parameters: &[FACTORS, BLOCKS],
+    forgetting_factor: false,
+    largest_rows: None,
+    proper: Claim::If("block-normalized R >= blkdiag(factors); rarely so near 1"),
+    bounded_above: Claim::No,
+    bounded_below: Claim::If("factors <= lambda_max < 1, regressors bounded"),
+    cost: "O(p n^2)",
+};
+
+/// Forgets each block at its own rate; see [`self`](crate::rules::multiple).
+#[derive(Clone, Debug)]
+pub struct Multiple<M: Memory> {
+    /// number of blocks
+    count: usize,
+    /// sizes of the blocks, whole numbers
+    sizes: M::Vector,
+    /// λ_b
+    factors: M::Vector,
+}
+
+impl<M: Memory> Multiple<M> {
+    /// With consecutive blocks of these sizes and a forgetting factor for each.
+    ///
+    /// # Errors
+    /// [`Error`] names `blocks` unless they add up to n, or `factors`.
+    pub fn new(factors: &[M::Real], blocks: &[usize], memory: M) -> Result<Self, Error> {
+        Error::check_length(FACTORS.name, factors.len(), blocks.len())?;
+        Self::of(memory, blocks.len(), &|b| factors[b].to_f64(), &|b| blocks[b] as f64)
+    }
+
+    /// With the factors given in `values`.
+    fn with_blocks(
+        values: &dyn Values,
+        memory: M,
+        count: usize,
+        size: &dyn Fn(usize) -> f64,
+    ) -> Result<Self, Error> {
+        match FACTORS.look_up(values)? {
+            Value::Real(factor) => Self::of(memory, count, &|_| factor, size),
+            Value::Matrix { rows, columns, elements } => {
+                Error::check_length(FACTORS.name, rows * columns, count)?;
+                Self::of(memory, count, elements, size)
+            }
+            _ => Err(Error::value(FACTORS.name, f64::NAN, "numbers")),
+        }
+    }
+
+    fn of(
+        memory: M,
+        count: usize,
+        factor: &dyn Fn(usize) -> f64,
+        size: &dyn Fn(usize) -> f64,
+    ) -> Result<Self, Error> {
+        let n = memory.parameters();
+        let (mut sizes, mut factors, mut end) = (memory.vector(), memory.vector(), 0.0);
+        for b in 0..count {
+            let one = size(b);
+            end += one;
+            if !(one >= 1.0 && libm::trunc(one) == one && end <= n as f64) {
+                return Err(refuse(BLOCKS.name, b, one, "whole numbers >= 1 that add up to n"));
+            }
+            let lambda = M::Real::from_f64(factor(b));
+            if !(lambda > M::Real::ZERO && lambda <= M::Real::ONE) {
+                return Err(refuse(FACTORS.name, b, factor(b), FACTORS.range.words));
+            }
+            sizes.as_mut()[b] = M::Real::from_f64(one);
+            factors.as_mut()[b] = lambda;
+        }
+        if end != n as f64 {
+            return Err(Error::value(BLOCKS.name, end, "sizes that add up to the number of parameters"));
+        }
+        Ok(Self { count, sizes, factors })
+    }
+
+    /// Each block: its first parameter, its size and its factor.
+    #[inline]
+    fn blocks(&self) -> impl Iterator<Item = (usize, usize, M::Real)> + '_ {
+        let sizes = self.sizes.as_ref()[..self.count].iter().map(|size| size.to_f64() as usize);
+        sizes.zip(self.factors.as_ref()).scan(0, |start, (size, &factor)| {
+            *start += size;
+            Some((*start - size, size, factor))
+        })
+    }
+}
+
+fn refuse(parameter: &'static str, index: usize, value: f64, allowed: &'static str) -> Error {
+    Error::Value { parameter, index: Some(index), value, allowed }
+}
+
+/// R_bb⁻¹ of every block, each U D Uᵀ.
+#[derive(Clone, Debug)]
+pub struct Blocks<M: Memory> {
+    /// one block after the other, each packed as in [`Factor`]
+    columns: M::Packed,
+    diagonal: M::Vector,
+    /// 1 once taken from the first P
+    started: u64,
+    work: M::Square,
+}
+
+impl<M: Memory> Blocks<M> {
+    /// R_bb⁻¹ = (B Bᵀ)⁻¹ with B the rows D^(−1/2)U⁻¹e_i of the block: when q_t = Σ_u U_ut B_u are
+    /// the rows made orthogonal one after the other, D_t = 1/‖q_t‖².
+    fn start_block(&mut self, factor: &Factor<M>, start: usize, size: usize, offset: usize) {
+        let n = factor.parameters();
+        let rows = &mut self.work.as_mut()[..size * n];
+        let columns = &mut self.columns.as_mut()[offset..offset + length(size)];
+        set_identity(columns, size);
+        for t in 0..size {
+            let (done, row) = rows.split_at_mut(t * n);
+            let row = &mut row[..n];
+            row.fill(M::Real::ZERO);
+            row[start + t] = M::Real::ONE;
+            factor.solve(row);
+            for (x, &d) in row.iter_mut().zip(factor.diagonal_elements()) {
+                *x /= d.sqrt();
+            }
+            let (before, column) = columns.split_at_mut(kernel::start(t));
+            for (u, q) in done.chunks_exact(n).enumerate() {
+                let share = dot(q, row) / dot(q, q);
+                add_scaled(row, -share, q);
+                column[u] -= share;
+                add_scaled(column, -share, crate::factor::kernel::column(before, u));
+            }
+            self.diagonal.as_mut()[start + t] =
+                (M::Real::ONE / dot(row, row)).max(M::Real::FLOOR).min(M::Real::CEILING);
+        }
+    }
+}
+
+impl<M: Memory> Forgetting<M> for Multiple<M> {
+    type State = Blocks<M>;
+
+    fn configure(values: &dyn Values, memory: M) -> Result<Self, Error> {
+        match BLOCKS.look_up(values)? {
+            Value::Real(size) => {
+                let count = memory.parameters() as f64 / BLOCKS.check(size)?;
+                Self::with_blocks(values, memory, libm::floor(count) as usize, &|_| size)
+            }
+            Value::Matrix { rows, columns, elements } => {
+                Self::with_blocks(values, memory, rows * columns, elements)
+            }
+            _ => Err(Error::value(BLOCKS.name, f64::NAN, "numbers")),
+        }
+    }
+
+    fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>)) {
+        let (rows, columns) = (1, self.count);
+        let factors = |b: usize| self.factors.as_ref()[b].to_f64();
+        each(FACTORS.name, Value::Matrix { rows, columns, elements: &factors });
+        let sizes = |b: usize| self.sizes.as_ref()[b].to_f64();
+        each(BLOCKS.name, Value::Matrix { rows, columns, elements: &sizes });
+    }
+
+    fn start(&self, memory: M) -> Blocks<M> {
+        let (columns, diagonal) = (memory.packed(), memory.vector());
+        Blocks { columns, diagonal, started: 0, work: memory.square() }
+    }
+
+    #[inline]
+    fn forget(&self, state: &mut Blocks<M>, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
+        let least = self.blocks().fold(M::Real::ONE, |least, (_, _, lambda)| least.min(lambda));
+        // R_bb⁻¹ ≤ P_bb, so that P̄ is at most P/λ of the smallest λ
+        step.factor.reserve(M::Real::ONE / least, M::Real::ZERO)?;
+        if state.started == 0 {
+            let mut offset = 0;
+            for (start, size, _) in self.blocks() {
+                state.start_block(step.factor, start, size, offset);
+                offset += length(size);
+            }
+            state.started = 1;
+        }
+        step.factor.clear_columns();
+        let mut offset = 0;
+        for (start, size, lambda) in self.blocks() {
+            let columns = &mut state.columns.as_mut()[offset..offset + length(size)];
+            let diagonal = &mut state.diagonal.as_mut()[start..start + size];
+            diagonal.iter_mut().for_each(|d| *d = (*d / lambda).min(M::Real::CEILING));
+            step.factor.put_block(start, columns, diagonal);
+            for i in 0..step.sample.rows() {
+                let row = &step.sample.row(i)[start..start + size];
+                bierman(columns, diagonal, row, step.work.gain.as_mut());
+            }
+            offset += columns.len();
+        }
+        Ok(Forgotten::rank(step.factor.parameters()))
+    }
+}
+
+impl<M: Memory> State<M::Real> for Blocks<M> {
+    fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
+        visitor.reals(self.columns.as_mut());
+        visitor.reals(self.diagonal.as_mut());
+        visitor.whole(&mut self.started);
+    }
+}

@@ -1,0 +1,193 @@
+//! Forgets along the eigenvectors of the information matrix that the sample excites.
+//!
+//! ```text
+//! R = V diag(r) Vᵀ,  ψ = φ̄ V                         tutorial (66)
+//! F_k = V diag((1 − λ_k) r_i [‖ψ_i‖ > threshold]) Vᵀ  (64), (67)–(69)
+//! P̄ = P + (1 − λ)/λ · Σ v_i v_iᵀ/r_i, the excited i   the form used: one dyad for each excited
+//!                                                     i, or, where these are most,
+//! P̄⁻¹ = λ R + (1 − λ) Σ r_i v_i v_iᵀ, the other i     D ← D/λ and one row for each of the rest
+//! ```
+//!
+//! Eigenvalues that differ by less than √precision, relatively, have no eigenvectors of their
+//! own (P₀ = c·I has none at all). Among them the sample decides: the directions forgotten are
+//! the right singular vectors of φ̄V_c with singular values above the threshold, V_c any basis
+//! of their space. What is forgotten then depends on P and φ̄ only.
+//!
+//! | symbol | name | range | default |
+//! |---|---|---|---|
+//! | ε | threshold | (0, ∞) | 1e-6 |
+//!
+//! - Proper (A1): always.
+//! - P̄ bounded above without excitation (A2): no. An eigenvector that φ̄ meets at a small angle is
+//!   forgotten like any other, and may gain less than it loses. Under persistent excitation,
+//!   with R_k ≥ λᴺ α I.
+//! - P bounded below (A3): no. A sample along which every ‖ψ_i‖ is at or below the threshold is
+//!   not forgotten but still accumulated, as published; without end it drives P to 0. `subspace`
+//!   leaves such samples out.
+//! - Cost: O(n³), most of it one product of n x n matrices a row. State: P and the
+//!   eigenvectors and eigenvalues of P⁻¹, which follow P by rank-one updates (the secular
+//!   equation) and are computed from its factor every 128 samples; P is never inverted.
+//! - Use it to reproduce work that used it, or where directions should be forgotten by the
+//!   principal axes of what is known. `subspace` forgets exactly what the sample informs, for
+//!   O(p n²), with bounds.
+//!
+//! Reference: A. Goel, A. L. Bruce, D. S. Bernstein, *Recursive least squares with
+//! variable-direction forgetting*, IEEE Control Systems Magazine 40(4), 2020, (64)–(71), with
+//! the transposes that (70) lost.
+
+use super::{About, Claim, Forgetting, Forgotten, Step};
+use crate::factor::kernel::add_scaled;
+use crate::parameter::{Parameter, Range, Value, Values};
+use crate::spectrum::Spectrum;
+use crate::{Error, Memory, Real};
+
+const THRESHOLD: Parameter = Parameter::real(
+    "threshold",
+    1e-6,
+    Range::POSITIVE,
+    "an eigenvector is forgotten if the whitened regressor along it is longer (units of phi)",
+);
+
+/// The registry entry.
+pub const ABOUT: About = About {
+    name: "variable_direction",
+    type_name: "VariableDirection",
+    source: include_str!("variable_direction.rs"),
+    parameters: &[THRESHOLD],
+    forgetting_factor: true,
+    largest_rows: None,
+    proper: Claim::Always,
+    bounded_above: Claim::No,
+    bounded_below: Claim::No,
+    cost: "O(p n^3)",
+};
+
+/// Forgets along excited eigenvectors; see [`self`](crate::rules::variable_direction).
+#[derive(Clone, Copy, Debug)]
+pub struct VariableDirection<M: Memory> {
+    threshold: M::Real,
+}
+
+impl<M: Memory> VariableDirection<M> {
+    /// With the length of φ̄ along an eigenvector above which it is forgotten.
+    ///
+    /// # Errors
+    /// [`Error::Value`] unless `threshold` is positive.
+    pub fn new(threshold: M::Real) -> Result<Self, Error> {
+        Ok(Self { threshold: THRESHOLD.check(threshold)? })
+    }
+
+    /// Marks the excited eigenvectors with 1 in `work.second`, and forgets along those of
+    /// uneven clusters; returns the number of excited ones and of those dealt with.
+    #[inline]
+    fn find(&self, spectrum: &mut Spectrum<M>, step: &mut Step<'_, '_, M>) -> (usize, usize) {
+        let n = step.factor.parameters();
+        let growth = M::Real::ONE / step.forgetting_factor;
+        let rows = step.sample.rows();
+        let components = &mut step.work.first.as_mut()[..rows * n];
+        for (i, components) in components.chunks_exact_mut(n).enumerate() {
+            spectrum.project(step.sample.row(i), components);
+        }
+        let marks = &mut step.work.second.as_mut()[..n];
+        marks.fill(M::Real::ZERO);
+        let (mut start, mut rank, mut done) = (0, 0, 0);
+        while start < n {
+            let cluster = spectrum.cluster(start);
+            let uneven = spectrum.is_uneven(cluster.clone());
+            let found = spectrum.align(cluster.clone(), components, self.threshold);
+            if uneven && found > 0 {
+                for i in start..start + found {
+                    let weight = (growth - M::Real::ONE) * spectrum.variance(cluster.clone(), i);
+                    let direction = step.work.gain.as_mut();
+                    direction.copy_from_slice(spectrum.vector(i));
+                    step.factor.add_covariance(direction, weight);
+                }
+                spectrum.settle(cluster.clone(), found, growth);
+                done += found;
+            } else {
+                marks[start..start + found].fill(M::Real::ONE);
+            }
+            rank += found;
+            start = cluster.end;
+        }
+        (rank, done)
+    }
+}
+
+/// Forgets along the eigenvectors marked in `work.second`, each alone in its cluster.
+#[inline]
+fn forget_marked<M: Memory>(
+    spectrum: &mut Spectrum<M>,
+    step: &mut Step<'_, '_, M>,
+    rest_is_small: bool,
+) -> Result<(), Error> {
+    let lambda = step.forgetting_factor;
+    let lost = M::Real::ONE - lambda;
+    let marks = step.work.second.as_ref();
+    let direction = &mut step.work.first.as_mut()[..step.factor.parameters()];
+    if rest_is_small {
+        step.factor.scale(M::Real::ONE / lambda)?;
+    }
+    for (i, &mark) in marks[..direction.len()].iter().enumerate() {
+        let marked = mark > M::Real::ZERO;
+        let information = spectrum.information()[i];
+        if rest_is_small && !marked {
+            let weight = (lost * information).sqrt();
+            direction.fill(M::Real::ZERO);
+            add_scaled(direction, weight, spectrum.vector(i));
+            step.factor.add_information(direction, step.work.gain.as_mut());
+        } else if marked {
+            if !rest_is_small {
+                direction.copy_from_slice(spectrum.vector(i));
+                step.factor.add_covariance(direction, lost / (lambda * information));
+            }
+            spectrum.set_information(i, lambda * information);
+        }
+    }
+    Ok(())
+}
+
+impl<M: Memory> Forgetting<M> for VariableDirection<M> {
+    type State = Spectrum<M>;
+
+    fn configure(values: &dyn Values, _: M) -> Result<Self, Error> {
+        Self::new(THRESHOLD.number(values)?)
+    }
+
+    fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>)) {
+        each(THRESHOLD.name, Value::Real(self.threshold.to_f64()));
+    }
+
+    fn start(&self, memory: M) -> Spectrum<M> {
+        Spectrum::new(memory)
+    }
+
+    #[inline]
+    fn forget(
+        &self,
+        spectrum: &mut Spectrum<M>,
+        mut step: Step<'_, '_, M>,
+    ) -> Result<Forgotten, Error> {
+        if step.sample.squared_regressors() == M::Real::ZERO {
+            return Ok(Forgotten::rank(0)); // nothing forgotten, nothing learned
+        }
+        let (lambda, mut rank) = (step.forgetting_factor, 0);
+        if lambda < M::Real::ONE {
+            // P̄ ≤ P/λ; from here on nothing can fail
+            step.factor.reserve(M::Real::ONE / lambda, M::Real::ZERO)?;
+        }
+        spectrum.follow(step.factor);
+        if lambda < M::Real::ONE {
+            let done;
+            (rank, done) = self.find(spectrum, &mut step);
+            let rest = step.factor.parameters() - rank;
+            let rest_is_small =
+                done == 0 && 3 * rest < 2 * rank && lambda >= M::Real::from_f64(0.5);
+            forget_marked(spectrum, &mut step, rest_is_small)?;
+        }
+        for i in 0..step.sample.rows() {
+            spectrum.learn(step.sample.row(i));
+        }
+        Ok(Forgotten::rank(rank))
+    }
+}

@@ -1,0 +1,194 @@
+//! The eigenvalues and eigenvectors of P⁻¹, followed from sample to sample.
+//!
+//! For rules that forget along eigenvectors. P itself stays in its factor: the spectrum is
+//! computed from the factor (Jacobi rotations, no inverse), then follows what forgetting does to
+//! the eigenvalues and what each row of a sample adds (the secular equation), and is renewed
+//! from the factor every [`Spectrum::PERIOD`] samples, so that rounding cannot pile up.
+
+mod cluster;
+mod combine;
+mod deflate;
+mod jacobi;
+mod secular;
+
+use crate::factor::kernel::dot;
+use crate::state::{State, Visitor};
+use crate::{Factor, Memory, Real};
+
+/// R = P⁻¹ = Σ_i r_i v_i v_iᵀ with r ascending.
+#[derive(Clone, Debug)]
+pub struct Spectrum<M: Memory> {
+    memory: M,
+    /// row i: v_i
+    vectors: M::Square,
+    /// r_i
+    information: M::Vector,
+    /// samples since the spectrum was computed from P; 0: it never was
+    age: u64,
+    // what follows is of use within one call only
+    square: M::Square,
+    product: M::Square,
+    components: M::Vector,
+    poles: M::Vector,
+    weights: M::Vector,
+    roots: M::Vector,
+}
+
+impl<M: Memory> Spectrum<M> {
+    /// Samples after which the spectrum is computed anew.
+    pub const PERIOD: u64 = 128;
+
+    /// A spectrum that is computed when it is first needed.
+    pub fn new(memory: M) -> Self {
+        let mut vectors = memory.square();
+        jacobi::axes(vectors.as_mut(), memory.parameters());
+        Self {
+            memory,
+            vectors,
+            information: memory.vector(),
+            age: 0,
+            square: memory.square(),
+            product: memory.square(),
+            components: memory.vector(),
+            poles: memory.vector(),
+            weights: memory.vector(),
+            roots: memory.vector(),
+        }
+    }
+
+    /// The eigenvalues of P⁻¹, in the order of the vectors, ascending after [`Spectrum::sort`].
+    #[inline(always)]
+    pub fn information(&self) -> &[M::Real] {
+        self.information.as_ref()
+    }
+
+    /// The i-th eigenvector, of length 1.
+    #[inline(always)]
+    pub fn vector(&self, i: usize) -> &[M::Real] {
+        let n = self.memory.parameters();
+        &self.vectors.as_ref()[i * n..(i + 1) * n]
+    }
+
+    /// r_i ← `information`, kept within the range of what P can be.
+    #[inline(always)]
+    pub fn set_information(&mut self, i: usize, information: M::Real) {
+        self.information.as_mut()[i] = information.max(M::Real::FLOOR).min(M::Real::CEILING);
+    }
+
+    /// To be called once a sample, before the spectrum is used: computes it when it is due.
+    #[inline(always)]
+    pub fn follow(&mut self, factor: &Factor<M>) {
+        if self.age == 0 || self.age >= Self::PERIOD {
+            self.renew(factor);
+            self.age = 0;
+        }
+        self.age += 1;
+        self.sort();
+    }
+
+    /// φ V: the components of the n numbers `row` along the eigenvectors.
+    #[inline(always)]
+    pub fn project(&self, row: &[M::Real], components: &mut [M::Real]) {
+        let n = self.memory.parameters();
+        for (c, v) in components.iter_mut().zip(self.vectors.as_ref().chunks_exact(n)) {
+            *c = dot(v, row);
+        }
+    }
+
+    /// Sorts by eigenvalue; nearly free when nothing is out of order.
+    #[inline(always)]
+    pub fn sort(&mut self) {
+        let n = self.memory.parameters();
+        let values = self.information.as_mut();
+        for i in 1..n {
+            let mut k = i;
+            while k > 0 && values[k - 1] > values[k] {
+                values.swap(k - 1, k);
+                swap_rows(self.vectors.as_mut(), n, k - 1);
+                k -= 1;
+            }
+        }
+    }
+
+    /// R ← R + fᵀf for n numbers `row`: what a whitened row of a sample adds.
+    ///
+    /// By the secular equation, each root of which is a new eigenvalue; the eigenvectors are
+    /// those of a matrix with exactly these roots, and so orthogonal to working precision.
+    ///
+    /// J. R. Bunch, C. P. Nielsen, D. C. Sorensen, *Rank-one modification of the symmetric
+    /// eigenproblem*, Numerische Mathematik 31, 1978; M. Gu, S. C. Eisenstat, *A stable and
+    /// efficient algorithm for the rank-one modification of the symmetric eigenproblem*, SIAM
+    /// Journal on Matrix Analysis and Applications 15, 1994.
+    #[inline(always)]
+    pub fn learn(&mut self, row: &[M::Real]) {
+        self.sort();
+        let active = self.deflate(row);
+        if active == 1 {
+            let mut components = self.components.as_ref().iter();
+            if let Some(i) = components.position(|z| *z != M::Real::ZERO) {
+                let added = self.weights.as_ref()[0] * self.weights.as_ref()[0];
+                self.set_information(i, self.information.as_ref()[i] + added);
+            }
+        } else if active > 1 && !self.update(active) {
+            self.age = 0; // out of range: compute it from P at the next sample
+        }
+    }
+
+    /// The new eigenvalues and eigenvectors of the `active` ones; false if out of range.
+    #[inline(always)]
+    fn update(&mut self, active: usize) -> bool {
+        let n = self.memory.parameters();
+        let (poles, weights) = (&self.poles.as_ref()[..active], &self.weights.as_ref()[..active]);
+        let turn = &mut self.square.as_mut()[..active * active];
+        let roots = &mut self.roots.as_mut()[..active];
+        secular::roots(poles, weights, turn, roots);
+        // the row of `product` is free until the vectors are combined
+        if !secular::vectors(poles, weights, turn, &mut self.product.as_mut()[..active]) {
+            return false;
+        }
+        let (components, product) = (self.components.as_ref(), self.product.as_mut());
+        combine::combine(turn, active, self.vectors.as_ref(), n, components, product);
+        let mut combined = product.chunks_exact(n).zip(roots.iter());
+        for (i, vector) in self.vectors.as_mut().chunks_exact_mut(n).enumerate() {
+            if components[i] != M::Real::ZERO {
+                if let Some((row, &root)) = combined.next() {
+                    vector.copy_from_slice(row);
+                    self.information.as_mut()[i] = root.max(M::Real::FLOOR).min(M::Real::CEILING);
+                }
+            }
+        }
+        true
+    }
+}
+
+impl<M: Memory> State<M::Real> for Spectrum<M> {
+    fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
+        visitor.reals(self.vectors.as_mut());
+        visitor.reals(self.information.as_mut());
+        visitor.whole(&mut self.age);
+    }
+}
+
+/// Rows i and i + 1 of rows of n numbers change places.
+#[inline(always)]
+fn swap_rows<T: Real>(rows: &mut [T], n: usize, i: usize) {
+    let (above, below) = rows[i * n..].split_at_mut(n);
+    above.swap_with_slice(&mut below[..n]);
+}
+
+/// Rows i < k of rows of n numbers.
+#[inline(always)]
+fn two_rows<T: Real>(rows: &mut [T], n: usize, i: usize, k: usize) -> (&mut [T], &mut [T]) {
+    let (above, below) = rows.split_at_mut(k * n);
+    (&mut above[i * n..(i + 1) * n], &mut below[..n])
+}
+
+/// (x, y) ← (cosine·x − sine·y, sine·x + cosine·y)
+#[inline(always)]
+fn rotate<T: Real>(x: &mut [T], y: &mut [T], cosine: T, sine: T) {
+    for (x, y) in x.iter_mut().zip(y) {
+        let (before_x, before_y) = (*x, *y);
+        *x = cosine * before_x - sine * before_y;
+        *y = sine * before_x + cosine * before_y;
+    }
+}

@@ -1,0 +1,101 @@
+//! Trusts a sample less the larger its error, as if the noise had Student's t distribution.
+//!
+//! ```text
+//! r_k = ‖ē_k‖ over the rows, of the target where it is longest     ē = Γ^(−1/2)(y − φθ)
+//! w_k = (ν + p)/(ν + r_k²)                                         Γ ← Γ/w
+//! ```
+//!
+//! | symbol | name | range | default |
+//! |---|---|---|---|
+//! | ν | degrees | (0, ∞) | 4 |
+//!
+//! - Bounded influence: w r ≤ c = (ν + p)/(2√ν), reached at r = √ν. One sample moves θ_i of any
+//!   target by at most c ‖(P̄φ̄ᵀ)_i‖ ≤ c √(P̄_ii tr φ̄P̄φ̄ᵀ), whatever y is; see `huber`. Beyond r = √ν
+//!   the influence falls again, to 0 as 1/r.
+//! - A sample with a small error counts up to (ν + p)/ν as much as its Γ says: w is the weight of
+//!   the maximum likelihood estimate, Γ the scale of the distribution, not its covariance.
+//! - Rates see the clipped error w ē.
+//! - Cost: O(p m). State: none.
+//! - Use it when gross errors are so large that even a clipped one disturbs; `huber` loses less
+//!   when there are none. After a jump of θ it takes longer to believe.
+//!
+//! Reference: K. L. Lange, R. J. A. Little, J. M. G. Taylor, *Robust statistical modeling using the
+//! t distribution*, Journal of the American Statistical Association 84(408), 1989.
+
+use super::{AboutWeighting, Weighting};
+use crate::parameter::{Parameter, Range, Value, Values};
+use crate::rates::Evidence;
+use crate::{Error, Memory, Real};
+
+const DEGREES: Parameter = Parameter::real(
+    "degrees",
+    4.0,
+    Range::POSITIVE,
+    "degrees of freedom of the noise; the fewer, the heavier its tails",
+);
+
+/// The registry entry.
+pub const ABOUT: AboutWeighting = AboutWeighting {
+    name: "student_t",
+    type_name: "StudentT",
+    source: include_str!("student_t.rs"),
+    parameters: &[DEGREES],
+};
+
+/// w = (ν + p)/(ν + r²); see [`self`](crate::weighting::student_t).
+#[derive(Clone, Copy, Debug)]
+pub struct StudentT<M: Memory> {
+    degrees: M::Real,
+}
+
+impl<M: Memory> StudentT<M> {
+    /// With ν degrees of freedom.
+    ///
+    /// # Errors
+    /// [`Error::Value`] unless `degrees` is positive.
+    pub fn new(degrees: M::Real) -> Result<Self, Error> {
+        Ok(Self { degrees: DEGREES.check(degrees)? })
+    }
+}
+
+impl<M: Memory> Weighting<M> for StudentT<M> {
+    fn configure(values: &dyn Values, _: M) -> Result<Self, Error> {
+        Self::new(DEGREES.number(values)?)
+    }
+
+    fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>)) {
+        each(DEGREES.name, Value::Real(self.degrees.to_f64()));
+    }
+
+    #[inline]
+    fn weight(&self, evidence: &Evidence<'_, '_, M>) -> M::Real {
+        let (nu, p) = (self.degrees, M::Real::from_f64(evidence.rows as f64));
+        let w = (nu + p) / (nu + evidence.largest_squared_error());
+        w.max(M::Real::FLOOR).min(M::Real::CEILING)
+    }
+
+    fn influence(&self, rows: usize) -> Option<M::Real> {
+        let (nu, two) = (self.degrees, M::Real::from_f64(2.0));
+        Some((nu + M::Real::from_f64(rows as f64)) / (two * nu.sqrt()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::StudentT;
+    use crate::{Constant, Fixed, Estimator, NoForgetting, Prior};
+
+    /// ν = 4, r = 4: w = 5/20, P₊ = 1/(1 + w), θ₊ = P₊ w 4; r = 0: w = 5/4.
+    #[test]
+    fn weighs_by_the_error() {
+        for (y, weight) in [(4.0, 0.25), (0.0, 1.25)] {
+            let memory = Fixed::<f64, 1>::new();
+            let (rate, prior) = (Constant::new(1.0).unwrap(), Prior::scalar(memory, 1.0).unwrap());
+            let student = StudentT::new(4.0).unwrap();
+            let mut estimator = Estimator::new(NoForgetting::new(), rate, student, prior);
+            let update = estimator.update(&[1.0], &[y]).unwrap();
+            assert!((update.leverage - weight).abs() < 1e-15);
+            assert!((estimator.theta()[0] - weight * y / (1.0 + weight)).abs() < 1e-15);
+        }
+    }
+}

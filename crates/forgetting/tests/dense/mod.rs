@@ -1,0 +1,147 @@
+//! Dense matrices, written for the tests alone: what the factored forms are compared to.
+#![allow(dead_code, reason = "each test uses some of it")]
+
+use std::ops::{Add, Mul, Sub};
+use std::vec;
+use std::vec::Vec;
+
+/// A matrix of `rows` x `columns` numbers, row by row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dense {
+    pub rows: usize,
+    pub columns: usize,
+    pub elements: Vec<f64>,
+}
+
+impl Dense {
+    pub fn new(rows: usize, elements: &[f64]) -> Self {
+        Self { rows, columns: elements.len() / rows, elements: elements.to_vec() }
+    }
+
+    pub fn zero(rows: usize, columns: usize) -> Self {
+        Self { rows, columns, elements: vec![0.0; rows * columns] }
+    }
+
+    pub fn diagonal(elements: &[f64]) -> Self {
+        let n = elements.len();
+        let mut matrix = Self::zero(n, n);
+        (0..n).for_each(|i| matrix.elements[i * n + i] = elements[i]);
+        matrix
+    }
+
+    pub fn identity(n: usize) -> Self {
+        Self::diagonal(&vec![1.0; n])
+    }
+
+    pub fn at(&self, i: usize, j: usize) -> f64 {
+        self.elements[i * self.columns + j]
+    }
+
+    pub fn transpose(&self) -> Self {
+        let (rows, columns) = (self.columns, self.rows);
+        let elements = (0..rows * columns).map(|k| self.at(k % columns, k / columns)).collect();
+        Self { rows, columns, elements }
+    }
+
+    pub fn trace(&self) -> f64 {
+        (0..self.rows).map(|i| self.at(i, i)).sum()
+    }
+
+    /// The largest magnitude.
+    pub fn size(&self) -> f64 {
+        self.elements.iter().fold(0.0, |largest, x| largest.max(x.abs()))
+    }
+
+    /// By Gauss and Jordan with pivots.
+    pub fn inverse(&self) -> Self {
+        let n = self.rows;
+        let (mut a, mut b) = (self.clone(), Self::identity(n));
+        for j in 0..n {
+            let pivot = (j..n).max_by(|&x, &y| a.at(x, j).abs().total_cmp(&a.at(y, j).abs()));
+            let pivot = pivot.unwrap();
+            for m in [&mut a, &mut b] {
+                (0..n).for_each(|c| m.elements.swap(pivot * n + c, j * n + c));
+            }
+            let d = a.at(j, j);
+            assert!(d != 0.0, "singular");
+            for m in [&mut a, &mut b] {
+                (0..n).for_each(|c| m.elements[j * n + c] /= d);
+            }
+            for i in (0..n).filter(|&i| i != j) {
+                let factor = a.at(i, j);
+                for m in [&mut a, &mut b] {
+                    (0..n).for_each(|c| m.elements[i * n + c] -= factor * m.at(j, c));
+                }
+            }
+        }
+        b
+    }
+
+    /// The eigenvalues of a symmetric matrix in ascending order, by Jacobi's rotations.
+    pub fn eigenvalues(&self) -> Vec<f64> {
+        let (n, mut a) = (self.rows, self.clone());
+        for _ in 0..60 {
+            for (p, q) in (0..n).flat_map(|p| (p + 1..n).map(move |q| (p, q))) {
+                if a.at(p, q) == 0.0 {
+                    continue;
+                }
+                let zeta = (a.at(q, q) - a.at(p, p)) / (2.0 * a.at(p, q));
+                let t = zeta.signum() / (zeta.abs() + zeta.hypot(1.0));
+                let (c, s) = (1.0 / t.hypot(1.0), t / t.hypot(1.0));
+                let mut turn = Self::identity(n);
+                for (i, j, x) in [(p, p, c), (p, q, s), (q, p, -s), (q, q, c)] {
+                    turn.elements[i * n + j] = x;
+                }
+                a = turn.transpose() * a * turn;
+                a.elements[p * n + q] = 0.0;
+                a.elements[q * n + p] = 0.0;
+            }
+        }
+        let mut values: Vec<f64> = (0..n).map(|i| a.at(i, i)).collect();
+        values.sort_by(f64::total_cmp);
+        values
+    }
+
+    /// How far apart two matrices are, relative to the second.
+    pub fn distance(&self, other: &Self) -> f64 {
+        (self.clone() - other.clone()).size() / other.size().max(f64::MIN_POSITIVE)
+    }
+}
+
+impl Mul for Dense {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        assert_eq!(self.columns, other.rows);
+        let mut product = Self::zero(self.rows, other.columns);
+        for i in 0..self.rows {
+            for j in 0..other.columns {
+                product.elements[i * other.columns + j] =
+                    (0..self.columns).map(|k| self.at(i, k) * other.at(k, j)).sum();
+            }
+        }
+        product
+    }
+}
+
+impl Mul<Dense> for f64 {
+    type Output = Dense;
+    fn mul(self, mut matrix: Dense) -> Dense {
+        matrix.elements.iter_mut().for_each(|x| *x *= self);
+        matrix
+    }
+}
+
+impl Add for Dense {
+    type Output = Self;
+    fn add(mut self, other: Self) -> Self {
+        self.elements.iter_mut().zip(&other.elements).for_each(|(x, y)| *x += y);
+        self
+    }
+}
+
+impl Sub for Dense {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        self + (-1.0) * other
+    }
+}

@@ -1,0 +1,54 @@
+//! `efra` against its published form, computed with dense matrices.
+
+mod dense_forms;
+
+use dense_forms::{gain, records, worst, Dense, Published};
+use forgetting::rules::Efra;
+use forgetting::{Dynamic, Real};
+
+const LAMBDA: f64 = 0.95;
+
+/// The published recursion; its P_k+1 is kept, its P₊ is what is compared.
+fn step(
+    a: f64,
+    b: f64,
+    d: f64,
+    n: usize,
+    variance: f64,
+) -> impl FnMut(&mut Published, &Dense, &Dense) {
+    let mut own = Dense::scaled_identity(n, variance);
+    move |theirs, phi, y| {
+        let k = gain(&own, phi, 1.0).scaled(a);
+        let error = y.plus(-1.0, &phi.times(&theirs.theta));
+        theirs.theta = theirs.theta.plus(1.0, &k.times(&error));
+        let taken = k.times(&phi.times(&own));
+        theirs.covariance = own.plus(-1.0, &taken).symmetric();
+        let one = Dense::scaled_identity(n, b);
+        own = own
+            .scaled(1.0 / LAMBDA)
+            .plus(-1.0, &taken)
+            .plus(1.0, &one)
+            .plus(-d, &own.times(&own))
+            .symmetric();
+    }
+}
+
+fn rule<T: Real>(a: f64, b: f64, d: f64) -> Efra<Dynamic<T>> {
+    Efra::new(T::from_f64(a), T::from_f64(b), T::from_f64(d)).unwrap()
+}
+
+const CLOSE: f64 = 1e-11;
+const CLOSE_SINGLE: f64 = 2e-3;
+
+#[test]
+fn equals_the_published_form() {
+    for (input, samples) in records(1, 300) {
+        let n = samples[0].0.columns;
+        for (a, b, d) in [(0.5, 5e-3, 5e-3), (1.0, 0.0, 1e-3), (0.9, 0.02, 0.01)] {
+            let found = worst(rule::<f64>(a, b, d), LAMBDA, 2.0, &samples, step(a, b, d, n, 2.0));
+            assert!(found < CLOSE, "{input:?} {n} {a} {b} {d}: {found:e}");
+            let found = worst(rule::<f32>(a, b, d), LAMBDA, 2.0, &samples, step(a, b, d, n, 2.0));
+            assert!(found < CLOSE_SINGLE, "{input:?} {n} {a} {b} {d}: {found:e}");
+        }
+    }
+}

@@ -1,0 +1,85 @@
+"""The commands, and the one place where an error becomes a sentence and an exit code."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+import typer
+
+import forgetting as fg
+from forgetting.cli.demo import demo
+from forgetting.cli.identify import identify
+from forgetting.cli.rules import rules
+from forgetting.record.errors import RecordError
+
+BAD = 2
+"""Exit code for bad use and bad data."""
+
+app = typer.Typer(
+    name="forgetting",
+    help="Identify models from measured records, recursively, and forget old data the right way.",
+    add_completion=False,
+    rich_markup_mode="rich",
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+app.command()(identify)
+app.command()(rules)
+app.command()(demo)
+
+
+def show_version(wanted: bool) -> None:
+    """Print the version and stop."""
+    if wanted:
+        print(f"forgetting {fg.__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def forgetting(
+    version: bool = typer.Option(
+        False, "--version", callback=show_version, is_eager=True, help="Show the version and exit."
+    ),
+) -> None:
+    """Identify models from measured records, recursively, and forget old data the right way."""
+
+
+def run(arguments: list[str]) -> int:
+    """Run a command line; whatever the user can cause ends as a sentence, never a traceback."""
+    if not arguments:
+        run(["--help"])
+        return BAD
+    try:
+        code = app(args=arguments, standalone_mode=False, prog_name="forgetting")
+    except (RecordError, fg.InvalidInput) as error:
+        return complain(str(error))
+    except fg.NumericalRange as error:
+        return complain(f"{error}; a rule with a bounded covariance, such as subspace, avoids this")
+    except MemoryError:
+        return complain("the record does not fit into memory")
+    except BrokenPipeError:
+        # The reader (such as `head`) has what it wanted; stdout must not be flushed again at exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    except OSError as error:
+        return complain(f"{error.filename}: {error.strerror}" if error.filename else str(error))
+    except KeyboardInterrupt:
+        return complain("stopped")
+    except ImportError as error:
+        return complain(f"{error.name} is missing; install it with pip install 'forgetting[cli]'")
+    except Exception as error:
+        # Usage errors of the option parser; its classes moved between versions of typer.
+        if hasattr(error, "format_message"):
+            return complain(error.format_message())
+        if type(error).__name__ == "Abort":
+            return complain("stopped")
+        raise
+    return code if isinstance(code, int) else 0
+
+
+def complain(message: str) -> int:
+    """Write one sentence to stderr."""
+    sentence = " ".join(message.split()).rstrip(".")
+    print(f"forgetting: {sentence}.", file=sys.stderr)
+    return BAD

@@ -1,0 +1,122 @@
+"""`forgetting identify`."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from forgetting.cli import options
+from forgetting.cli.progress import progress_bar
+from forgetting.cli.rulebook import make_rule
+from forgetting.cli.tables import print_identification, print_written
+from forgetting.record.errors import RecordError
+from forgetting.record.identification import Identification
+
+
+def identify(
+    record: options.RecordFile,
+    formula: options.Formula = None,
+    output: options.Outputs = None,
+    input: options.Inputs = None,
+    arx: options.Orders = None,
+    time: options.Time = None,
+    rule: options.RuleName = "subspace",
+    forgetting_factor: options.ForgettingFactor = None,
+    threshold: options.Threshold = None,
+    settings: options.Settings = None,
+    initial_covariance: options.InitialCovariance = "100",
+    dtype: options.Dtype = "float64",
+    report: options.Report = None,
+    estimates: options.Estimates = None,
+    plot: options.Plot = None,
+    as_json: options.Json = False,
+) -> None:
+    """Identify a model from a measured record.
+
+    Say the model by --formula, or by --output, --input and --arx.
+
+    Prints parameters with standard errors, and the one-step error beside two baselines.
+    """
+    from forgetting.record.identify import identify as identify_record
+
+    check_targets(report, estimates, plot)
+    if dtype not in ("float64", "float32"):
+        raise RecordError(f"--dtype is {dtype!r}; it must be float64 or float32")
+    chosen = make_rule(rule, forgetting_factor, threshold, settings or [])
+    with progress_bar(f"identifying {record.name}") as progress:
+        found = identify_record(
+            record,
+            formula=formula,
+            output=output or (),
+            input=input or (),
+            arx=None if arx is None else parse_orders(arx),
+            rule=chosen,
+            initial_covariance=parse_covariance(initial_covariance),
+            dtype=dtype,
+            time=time,
+            progress=progress,
+        )
+    show(found, write(found, report, estimates, plot), as_json)
+
+
+def show(found: Identification, written: list[Path], as_json: bool) -> None:
+    """Print the result for a person or for a program."""
+    if as_json:
+        result = found.summary() | {"written": [str(path) for path in written]}
+        print(json.dumps(result, indent=2, ensure_ascii=False))
+        return
+    print_identification(found)
+    print_written(written)
+
+
+def write(
+    found: Identification, report: Path | None, estimates: Path | None, plot: Path | None
+) -> list[Path]:
+    """Write what was asked for."""
+    for path, save in (
+        (report, found.save_report),
+        (estimates, found.save_estimates),
+        (plot, found.save_plot),
+    ):
+        if path is not None:
+            save(path)
+    return [path for path in (report, estimates, plot) if path is not None]
+
+
+def check_targets(report: Path | None, estimates: Path | None, plot: Path | None) -> None:
+    """Refuse a file that cannot be written before the work, not after it."""
+    for option, path, suffixes in (
+        ("--report", report, (".html", ".htm")),
+        ("--estimates", estimates, (".parquet", ".csv")),
+        ("--plot", plot, (".png", ".svg", ".pdf")),
+    ):
+        if path is None:
+            continue
+        if path.suffix.lower() not in suffixes:
+            raise RecordError(f"{option} writes {', '.join(suffixes)}, but got {path.name!r}")
+        if not path.resolve().parent.is_dir():
+            raise RecordError(f"{option} {path}: there is no folder {path.parent}")
+
+
+def parse_orders(text: str) -> list[int]:
+    """Read na,nb,nk."""
+    try:
+        return [int(part) for part in text.split(",")]
+    except ValueError:
+        raise RecordError(
+            f"--arx takes three whole numbers na,nb,nk such as 1,2,0, but got {text!r}"
+        ) from None
+
+
+def parse_covariance(text: str) -> Any:
+    """Read one number, or the diagonal with commas."""
+    try:
+        values = [float(part) for part in text.split(",")]
+    except ValueError:
+        raise RecordError(
+            f"--initial-covariance takes a number, or numbers with commas, but got {text!r}"
+        ) from None
+    return values[0] if len(values) == 1 else np.array(values)

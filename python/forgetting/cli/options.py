@@ -1,0 +1,101 @@
+"""Options of `forgetting identify`, in the groups in which its help shows them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+MODEL, RULE, FILES = "Model", "Forgetting", "What to write"
+
+
+def option(panel: str, text: str, *names: str, **more: Any) -> Any:
+    """An option in a group of the help."""
+    return typer.Option(*names, rich_help_panel=panel, help=text, **more)
+
+
+RecordFile = Annotated[Path, typer.Argument(help="Measured record: .csv, .tsv, .txt or .parquet.")]
+Formula = Annotated[
+    str | None,
+    option(
+        MODEL,
+        "Regression, as in 'power ~ 0 + sun + sun:warmth'; lag(x, 1) is x one row ago.",
+        "--formula",
+        "-f",
+    ),
+]
+Outputs = Annotated[
+    list[str] | None,
+    option(MODEL, "Output column of an ARX model; repeat for several.", "--output", "-y"),
+]
+Inputs = Annotated[
+    list[str] | None,
+    option(MODEL, "Input column of an ARX model; repeat for several.", "--input", "-u"),
+]
+Orders = Annotated[
+    str | None,
+    option(
+        MODEL,
+        "Orders: past outputs, inputs, delay of the newest input.",
+        "--arx",
+        metavar="NA,NB,NK",
+    ),
+]
+Time = Annotated[
+    str | None,
+    option(MODEL, "Time column, when it is not found by itself.", "--time", metavar="COLUMN"),
+]
+RuleName = Annotated[
+    str, option(RULE, "Forgetting rule; 'forgetting rules' lists them.", "--rule", "-r")
+]
+ForgettingFactor = Annotated[
+    float | None,
+    option(
+        RULE,
+        "In (0, 1]; 1 never forgets, 0.99 remembers about 100 samples.",
+        "--forgetting-factor",
+        "-l",
+    ),
+]
+Threshold = Annotated[
+    float | None,
+    option(RULE, "Smallest regressor that counts as information (rule subspace).", "--threshold"),
+]
+Settings = Annotated[
+    list[str] | None,
+    option(
+        RULE,
+        "Any other parameter of the rule; repeat for several.",
+        "--set",
+        metavar="NAME=VALUE",
+    ),
+]
+InitialCovariance = Annotated[
+    str,
+    option(
+        RULE,
+        "P before the first sample: one number, or one per parameter, with commas.",
+        "--initial-covariance",
+        metavar="P0",
+    ),
+]
+Dtype = Annotated[str, option(RULE, "float64 or float32.", "--dtype")]
+Report = Annotated[
+    Path | None,
+    option(
+        FILES,
+        "One self-contained page with tables and pictures.",
+        "--report",
+        metavar="FILE.html",
+    ),
+]
+Estimates = Annotated[
+    Path | None,
+    option(FILES, "Every sample's estimate, .parquet or .csv.", "--estimates", metavar="FILE"),
+]
+Plot = Annotated[
+    Path | None,
+    option(FILES, "One picture, .png, .svg or .pdf.", "--plot", metavar="FILE.png"),
+]
+Json = Annotated[bool, option(FILES, "Print the result as JSON.", "--json")]

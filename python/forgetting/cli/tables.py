@@ -1,0 +1,81 @@
+"""What the command prints."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from rich import box
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from forgetting.record.identification import Identification
+from forgetting.record.rounding import brief, with_error
+
+
+def console() -> Console:
+    """A console on today's stdout (tests and pipes replace it)."""
+    return Console(highlight=False, soft_wrap=True)
+
+
+def table(title: str, header: Sequence[str], rows: Sequence[Sequence[str]]) -> Table:
+    """A plain table, numbers to the right; a long name is folded, a number never."""
+    made = Table(title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD)
+    made.add_column(header[0], overflow="fold")
+    for position, name in enumerate(header[1:], start=1):
+        width = max(len(row[position]) for row in [header, *rows])
+        made.add_column(name, justify="right", min_width=width)
+    for row in rows:
+        made.add_row(*map(escape, row))
+    return made
+
+
+def print_identification(found: Identification) -> None:
+    """Print parameters, scores, counts and verdicts."""
+    out = console()
+    samples = found.samples
+    out.print(f"[bold]{escape(samples.source)}[/]  {escape(samples.model)}")
+    out.print(f"rule {escape(repr(found.rule))}\n")
+    out.print(parameters(found))
+    out.print(scores(found))
+    held = f"{found.missing} missing, {found.dead_zone} in the dead zone"
+    out.print(f"samples     {len(samples.y)}: {found.used} used, {held}")
+    out.print(f"covariance  largest / smallest eigenvalue of P at the end: {spread(found)}")
+    for verdict in found.verdicts:
+        out.print(f"\n{escape(verdict)}", soft_wrap=False)
+
+
+def spread(found: Identification) -> str:
+    """Largest over smallest eigenvalue, with both."""
+    ends = found.trace.eigenvalues[-1]
+    largest, smallest = brief(float(ends[-1]), 3), brief(float(ends[0]), 3)
+    return f"{largest} / {smallest} = {brief(found.covariance_ratio, 3)}"
+
+
+def parameters(found: Identification) -> Table:
+    """Final values ± standard errors."""
+    several = len(found.samples.outputs) > 1
+    rows = [
+        (f"{output}: {name}" if several else name, *with_error(value, error))
+        for output, name, value, error in found.final()
+    ]
+    return table("Parameters", ("regressor", "value", "± standard error"), rows)
+
+
+def scores(found: Identification) -> Table:
+    """One-step RMSE beside the baselines."""
+    result = found.scores
+    rows = [
+        (name, brief(result.model[j]), brief(result.no_forgetting[j]), brief(result.last_value[j]))
+        for j, name in enumerate(found.samples.outputs)
+    ]
+    title = f"One-step RMSE on {result.samples} samples"
+    return table(title, ("output", "this model", "no forgetting", "last value"), rows)
+
+
+def print_written(paths: Sequence[Path]) -> None:
+    """Say where the files are."""
+    out = console()
+    for number, path in enumerate(paths):
+        out.print(f"{'' if number else chr(10)}wrote {escape(str(path))}")

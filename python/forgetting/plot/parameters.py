@@ -1,0 +1,66 @@
+"""A parameter over time with its band."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
+
+from forgetting.plot import thinning
+from forgetting.plot.style import BLUE, axes_or_new
+from forgetting.plot.timeline import label_time, timeline
+from forgetting.record.identification import Identification
+
+Array = NDArray[np.float64]
+
+
+def parameter(
+    found: Identification,
+    index: int,
+    output: int = 0,
+    ax: Axes | None = None,
+    color: str = BLUE,
+    label: str | None = None,
+) -> Axes:
+    """Draw one parameter and its ± 2 standard errors.
+
+    The vertical range follows the estimate once it has settled, not the first samples, in which the
+    band is as wide as the initial covariance.
+
+    Parameters
+    ----------
+    found : Identification
+        What `forgetting.record.identify` returned.
+    index, output : int
+        Which regressor, of which output.
+    ax : Axes, optional
+        Where to draw.
+    color, label : str, optional
+        For drawing several identifications into one picture.
+    """
+    ax = axes_or_new(ax)
+    x, time_label = timeline(found)
+    theta, spread = found.theta[:, index, output], 2 * found.standard_error[:, index, output]
+    ax.fill_between(
+        *thinning.band(x, theta - spread, theta + spread), color=color, alpha=0.18, lw=0
+    )
+    ax.plot(*thinning.line(x, theta), color=color, label=label)
+    low, high = settled_range(theta, spread)
+    if high > low:
+        ax.set_ylim(low, high)
+    prefix = f"{found.samples.outputs[output]}: " if len(found.samples.outputs) > 1 else ""
+    ax.set_title(prefix + found.samples.regressors[index])
+    label_time(ax, x, time_label)
+    return ax
+
+
+def settled_range(theta: Array, spread: Array) -> tuple[float, float]:
+    """Vertical range that shows the settled estimate and a good part of its band."""
+    settled = slice(len(theta) // 10, None)
+    low, high = float(theta[settled].min()), float(theta[settled].max())
+    known = spread[settled][np.isfinite(spread[settled])]
+    width = float(np.median(known)) if len(known) else 0.0
+    # A band that explodes (windup) must not flatten the estimate itself into a line.
+    width = min(width, 2 * (high - low)) if high > low else width
+    margin = 0.08 * (high - low) + 1.2 * width
+    return low - margin, high + margin

@@ -1,0 +1,72 @@
+"""One look for all pictures."""
+
+from __future__ import annotations
+
+from contextlib import AbstractContextManager
+from typing import Any
+
+import matplotlib as mpl
+from cycler import cycler
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+
+BLUE, VERMILLION, GREEN = "#0072b2", "#d55e00", "#009e73"
+ORANGE, PURPLE, SKY = "#e69f00", "#cc79a7", "#56b4e9"
+PALETTE = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY)
+INK, FAINT, GRID = "#1f2430", "#6b7280", "#d9dde4"
+"""Text, secondary lines and grid; the HTML report swaps them for its light or dark theme."""
+
+RC: dict[str, Any] = {
+    "axes.edgecolor": FAINT,
+    "axes.grid": True,
+    "axes.labelcolor": INK,
+    "axes.labelsize": 9.5,
+    "axes.prop_cycle": cycler(color=PALETTE),
+    "axes.spines.right": False,
+    "axes.spines.top": False,
+    "axes.titlecolor": INK,
+    "axes.titlelocation": "left",
+    "axes.titlesize": 10.5,
+    "axes.titleweight": "bold",
+    "axes.axisbelow": True,
+    "axes.formatter.useoffset": False,
+    "figure.dpi": 110,
+    "font.size": 9.5,
+    "grid.color": GRID,
+    "grid.linewidth": 0.7,
+    "legend.frameon": False,
+    "legend.fontsize": 9,
+    "legend.labelcolor": INK,
+    "lines.linewidth": 1.3,
+    "lines.solid_joinstyle": "round",
+    "svg.fonttype": "none",
+    "svg.hashsalt": "forgetting",
+    "text.color": INK,
+    "xtick.color": FAINT,
+    "xtick.labelcolor": INK,
+    "ytick.color": FAINT,
+    "ytick.labelcolor": INK,
+}
+
+
+def styled() -> AbstractContextManager[None]:
+    """Use the look inside a ``with`` block; the user's own settings come back after it."""
+    settings: Any = RC
+    return mpl.rc_context(settings)
+
+
+def axes_or_new(ax: Axes | None) -> Axes:
+    """Return `ax`, or new axes in a new figure."""
+    return plt.subplots(figsize=(9, 3), layout="constrained")[1] if ax is None else ax
+
+
+def legend_above(ax: Axes, entries: int) -> None:
+    """Put the legend above the axes on the right, where it hides no data."""
+    ax.legend(
+        loc="lower right",
+        bbox_to_anchor=(1.0, 1.0),
+        ncols=entries,
+        borderaxespad=0.1,
+        handlelength=1.6,
+        columnspacing=1.4,
+    )

@@ -1,0 +1,71 @@
+"""Columns by name, and their cells as numbers."""
+
+from __future__ import annotations
+
+import difflib
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from forgetting.record.errors import RecordError
+
+LISTED = 12
+"""How many column names an error lists when none is close."""
+
+
+def resolve(frame: pd.DataFrame, name: str, source: str) -> str:
+    """Return `name` when the table has it, else say what there is."""
+    if name in frame.columns:
+        return name
+    among = suggestion([str(column) for column in frame.columns], name, "its columns are")
+    raise RecordError(f"{source} has no column {name!r}{among}")
+
+
+def suggestion(known: list[str], name: str, otherwise: str) -> str:
+    """End of a sentence that names what the user may have meant.
+
+    Examples
+    --------
+    >>> suggestion(["voltage", "current"], "Voltag", "there are")
+    "; close are 'voltage'"
+    >>> suggestion(["voltage", "current"], "x", "there are")
+    "; there are 'voltage', 'current'"
+    """
+    lower = {column.lower(): column for column in known}
+    close = difflib.get_close_matches(name.lower(), lower, n=3, cutoff=0.55)
+    contained = [column for column in lower if name.lower() in column and column not in close]
+    matches = [lower[match] for match in (close + contained)[:3]]
+    if matches and len(name) > 1:
+        return f"; close are {', '.join(map(repr, matches))}"
+    more = f" and {len(known) - LISTED} more" if len(known) > LISTED else ""
+    return f"; {otherwise} {', '.join(map(repr, known[:LISTED]))}{more}"
+
+
+def numbers(frame: pd.DataFrame, name: str, source: str) -> NDArray[np.float64]:
+    """Return a column as float64 with NaN for missing cells.
+
+    Raises
+    ------
+    RecordError
+        When the column is unknown, or a cell holds text or an infinite value; the message names
+        column, row (counted from 1 below the header) and value.
+    """
+    column = frame[resolve(frame, name, source)]
+    parsed = pd.to_numeric(column, errors="coerce")
+    # Dates are numbers to pandas (nanoseconds); nobody means that.
+    if pd.api.types.is_datetime64_any_dtype(column):
+        raise RecordError(f"column {name!r} of {source} holds times, not numbers")
+    text = np.flatnonzero(parsed.isna() & column.notna())
+    if len(text):
+        row = int(text[0])
+        raise RecordError(
+            f"column {name!r} of {source} must hold numbers, "
+            f"but row {row + 1} is {str(column.iloc[row])!r}"
+        )
+    values = parsed.to_numpy(dtype=np.float64, na_value=np.nan)
+    infinite = np.flatnonzero(np.isinf(values))
+    if len(infinite):
+        row = int(infinite[0])
+        raise RecordError(f"column {name!r} of {source} is infinite in row {row + 1}")
+    return np.asarray(values, dtype=np.float64)

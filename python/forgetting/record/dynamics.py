@@ -1,0 +1,81 @@
+"""ARX models over a record."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+import numpy as np
+
+from forgetting.models.lags import Array, names, regressors
+from forgetting.models.orders import Orders
+from forgetting.record.columns import numbers
+from forgetting.record.errors import RecordError
+from forgetting.record.read import Record
+from forgetting.record.samples import Samples
+
+
+def dynamics(
+    record: Record, outputs: Sequence[str], inputs: Sequence[str], arx: Sequence[int]
+) -> Samples:
+    """Build the samples of y(k) = phi(k) theta for named outputs and inputs.
+
+    Parameters
+    ----------
+    record : Record
+        The measured record. A missing cell, or a step of its clock longer than 1.5 median steps,
+        is a gap; samples whose lags cross it are NaN.
+    outputs, inputs : sequence of str
+        Column names; several outputs share one regressor.
+    arx : sequence of three int
+        Orders na, nb, nk.
+    """
+    if not outputs:
+        raise RecordError("an ARX model needs at least one output column")
+    orders = checked_orders(arx, inputs)
+    refuse_repeats(outputs, inputs)
+    y = columns(record, outputs)
+    u = columns(record, inputs)
+    phi = np.vstack([regressors(u[part], y[part], orders) for part in stretches(record)])
+    said = f"ARX({orders.na},{orders.nb},{orders.nk}) of {', '.join(outputs)}"
+    said += f" on {', '.join(inputs)}" if inputs else ""
+    labels = tuple(names(outputs, inputs, orders))
+    return Samples(phi, y, labels, tuple(outputs), said, record.clock, record.name).check()
+
+
+def checked_orders(arx: Sequence[int], inputs: Sequence[str]) -> Orders:
+    """Check the orders against the inputs given."""
+    if len(arx) != 3:
+        raise RecordError(f"ARX orders are na,nb,nk, three whole numbers; got {len(arx)}")
+    try:
+        orders = Orders(*arx)
+    except ValueError as error:
+        raise RecordError(str(error)) from None
+    if orders.nb and not inputs:
+        raise RecordError(f"nb is {orders.nb} but no input is named; use nb = 0 without input")
+    if inputs and not orders.nb:
+        raise RecordError(f"nb is 0 but {len(inputs)} input column(s) are named")
+    return orders
+
+
+def refuse_repeats(outputs: Sequence[str], inputs: Sequence[str]) -> None:
+    """Refuse a column named twice: its parameters could not be told apart."""
+    named = [*outputs, *inputs]
+    for name in named:
+        if named.count(name) > 1:
+            raise RecordError(f"column {name!r} is named twice among outputs and inputs")
+
+
+def columns(record: Record, names: Sequence[str]) -> Array:
+    """Stack named columns as (T, c)."""
+    table = [numbers(record.frame, name, record.name) for name in names]
+    return np.column_stack(table) if table else np.empty((len(record.frame), 0))
+
+
+def stretches(record: Record) -> list[slice]:
+    """Slices of the record between gaps of its clock."""
+    if record.clock is None:
+        return [slice(None)]
+    cuts = np.flatnonzero(np.diff(record.clock.segments())) + 1
+    edges = [0, *cuts.tolist(), len(record.frame)]
+    return [slice(start, stop) for start, stop in pairwise(edges)]

@@ -1,0 +1,130 @@
+"""Identify a model from a measured record."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import ArrayLike
+
+import forgetting as fg
+from forgetting.record.dynamics import dynamics
+from forgetting.record.errors import RecordError
+from forgetting.record.excitation import verdicts
+from forgetting.record.identification import Identification
+from forgetting.record.read import Record, read
+from forgetting.record.samples import Samples
+from forgetting.record.scores import score
+from forgetting.record.trace import Progress, errors_without_forgetting, run
+
+
+def identify(
+    record: str | Path | pd.DataFrame | Record,
+    *,
+    formula: str | None = None,
+    output: str | Sequence[str] = (),
+    input: str | Sequence[str] = (),
+    arx: Sequence[int] | None = None,
+    rule: Any = "subspace",
+    initial_covariance: ArrayLike = 100.0,
+    dtype: str = "float64",
+    time: str | None = None,
+    progress: Progress | None = None,
+) -> Identification:
+    """Identify a regression or an ARX model recursively over a whole record.
+
+    Parameters
+    ----------
+    record : path, DataFrame or Record
+        See `forgetting.record.read`.
+    formula : str, optional
+        A regression such as ``"power ~ 0 + sun + sun:warmth"``; ``lag(x, k)`` is x, k rows ago.
+    output, input : str or sequence of str, optional
+        Columns of an ARX model; several outputs share one regressor.
+    arx : sequence of three int, optional
+        Orders na, nb, nk of the ARX model.
+    rule : str or Rule
+        Forgetting rule.
+    initial_covariance : float or array_like
+        P before the first sample: scalar, (n,) diagonal or (n, n), in units of 1/regressor².
+    dtype : str
+        "float64" or "float32".
+    time : str, optional
+        Name of the time column, when it is not found by itself.
+    progress : callable, optional
+        Called with (rows done, rows in all) while the estimator runs.
+
+    Returns
+    -------
+    Identification
+
+    Raises
+    ------
+    RecordError
+        When the file, a column, a cell or the model is at fault.
+    forgetting.InvalidInput
+        When a parameter of the estimator is out of range.
+    forgetting.NumericalRange
+        When a rule without a bounded covariance ran out of the range of numbers.
+
+    Notes
+    -----
+    A sample with a missing value in a regressor or output is skipped and counted. A lag that
+    crosses a missing cell, or a step in time longer than 1.5 median steps, is missing.
+
+    Examples
+    --------
+    >>> import numpy as np, pandas as pd
+    >>> x = np.sin(np.arange(200.0))
+    >>> found = identify(pd.DataFrame({"x": x, "y": 3 * x + 1}), formula="y ~ x")
+    >>> found.parameters["value"].round(2).tolist()
+    [1.0, 3.0]
+    >>> found.used, found.missing
+    (200, 0)
+    """
+    samples = build(read(record, time), formula, listed(output), listed(input), arx)
+    estimator = fg.RLS(
+        samples.phi.shape[1],
+        rule=rule,
+        targets=samples.y.shape[1],
+        initial_covariance=initial_covariance,
+        dtype=dtype,
+    )
+    initial_variance = np.diag(np.asarray(estimator.covariance, dtype=np.float64)).copy()
+    trace = run(estimator, samples, progress)
+    baseline = errors_without_forgetting(samples, initial_covariance, dtype)
+    return Identification(
+        samples=samples,
+        trace=trace,
+        rule=estimator.rule if isinstance(rule, str) else rule,
+        scores=score(samples, trace.error, baseline),
+        verdicts=verdicts(samples, trace, initial_variance),
+    )
+
+
+def build(
+    record: Record,
+    formula: str | None,
+    outputs: list[str],
+    inputs: list[str],
+    arx: Sequence[int] | None,
+) -> Samples:
+    """Choose between a formula and ARX, and refuse half of one with half of the other."""
+    if formula is not None:
+        if outputs or inputs or arx is not None:
+            raise RecordError("say the model by a formula, or by output, input and arx; not both")
+        # Imported here: a program that only wants ARX need not have formulaic.
+        from forgetting.record.regression import regression
+
+        return regression(record, formula)
+    if arx is None or not outputs:
+        raise RecordError("say the model: a formula, or output columns with ARX orders na,nb,nk")
+    return dynamics(record, outputs, inputs, arx)
+
+
+def listed(names: str | Sequence[str]) -> list[str]:
+    """One name or several, as a list."""
+    return [names] if isinstance(names, str) else list(names)

@@ -1,0 +1,63 @@
+"""The regression problem a model makes of a record."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from forgetting.record.clock import Clock
+from forgetting.record.errors import RecordError
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Samples:
+    """Regressors and outputs, row by row, with their names.
+
+    Attributes
+    ----------
+    phi : ndarray, shape (T, n)
+        Regressors, NaN where a value is missing or a lag crosses a gap.
+    y : ndarray, shape (T, m)
+        Outputs, NaN where missing. They share phi.
+    regressors, outputs : tuple of str
+        Column names; a parameter carries the name of its regressor.
+    model : str
+        The model in the words it was asked for.
+    clock : Clock or None
+        Time of each row.
+    source : str
+        Name of the record.
+    """
+
+    phi: Array
+    y: Array
+    regressors: tuple[str, ...]
+    outputs: tuple[str, ...]
+    model: str
+    clock: Clock | None
+    source: str
+
+    @property
+    def complete(self) -> NDArray[np.bool_]:
+        """Rows without any missing value, (T,)."""
+        return ~np.isnan(np.hstack([self.phi, self.y])).any(axis=1)  # type: ignore[return-value]
+
+    def check(self) -> Samples:
+        """Refuse infinite regressors and a record in which no sample is complete."""
+        infinite = np.argwhere(np.isinf(self.phi))
+        if len(infinite):
+            row, column = infinite[0]
+            raise RecordError(
+                f"regressor {self.regressors[column]!r} is infinite "
+                f"in row {row + 1} of {self.source}"
+            )
+        if not self.complete.any():
+            raise RecordError(
+                f"{self.source} has no complete sample: in each of its {len(self.y)} rows "
+                f"a value is missing or a lag reaches before the record or across a gap"
+            )
+        return self

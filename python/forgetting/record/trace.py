@@ -1,0 +1,135 @@
+"""Run an estimator over samples and keep its history."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+import forgetting as fg
+from forgetting.record.samples import Samples
+
+Array = NDArray[np.float64]
+Progress = Callable[[int, int], None]
+
+CHUNKS = 1000
+"""Pieces a record is run in; the eigenvalues of P are taken after each, so at most this often."""
+
+USED, DEAD_ZONE, MISSING = 0, 1, 2
+HISTORY = ("theta", "error", "forgetting_factor", "leverage", "skipped", "windup", "variance")
+
+
+@dataclass(frozen=True)
+class Trace:
+    """History of one run over T samples with n regressors and m outputs.
+
+    Attributes
+    ----------
+    theta : ndarray, shape (T, n, m)
+        Estimate after each sample.
+    error : ndarray, shape (T, m)
+        One-step error y - phi theta, theta from before the sample; NaN where missing.
+    forgetting_factor, leverage : ndarray, shape (T,)
+        Rate of each sample, and phi P phi' with P after forgetting and before measuring.
+    skipped : ndarray of uint8, shape (T,)
+        0 used, 1 dead zone (too little excitation), 2 missing.
+    windup : ndarray of bool, shape (T,)
+        Whether the estimator reported windup.
+    variance : ndarray, shape (T, n)
+        Diagonal of P after each sample.
+    rows : ndarray of int, shape (K,)
+        Rows after which the eigenvalues were taken.
+    eigenvalues : ndarray, shape (K, n)
+        Eigenvalues of P, ascending.
+    covariance : ndarray, shape (n, n)
+        P after the last sample.
+    """
+
+    theta: Array
+    error: Array
+    forgetting_factor: Array
+    leverage: Array
+    skipped: NDArray[np.uint8]
+    windup: NDArray[np.bool_]
+    variance: Array
+    rows: NDArray[np.int64]
+    eigenvalues: Array
+    covariance: Array
+
+
+def run(estimator: Any, samples: Samples, progress: Progress | None = None) -> Trace:
+    """Run `estimator` over all samples in chunks; chunking changes no bit of the result."""
+    dtype = np.dtype(estimator.dtype)
+    phi = np.ascontiguousarray(samples.phi, dtype=dtype)
+    y = np.ascontiguousarray(samples.y if samples.y.shape[1] > 1 else samples.y[:, 0], dtype=dtype)
+    total = len(y)
+    pieces: list[Any] = []
+    rows: list[int] = []
+    eigenvalues: list[Array] = []
+    for start, stop in chunks(total):
+        try:
+            piece = estimator.run(phi[start:stop], y[start:stop], outputs=HISTORY, missing="skip")
+        except (fg.InvalidInput, fg.NumericalRange) as error:
+            raise type(error)(in_rows(str(error), start)) from None
+        pieces.append(piece)
+        rows.append(stop - 1)
+        eigenvalues.append(np.linalg.eigvalsh(estimator.covariance.astype(np.float64)))
+        if progress is not None:
+            progress(stop, total)
+    return joined(pieces, samples, np.array(rows), np.array(eigenvalues), estimator.covariance)
+
+
+def in_rows(message: str, start: int) -> str:
+    """Turn "sample 3" of a piece that begins after `start` rows into a row of the record."""
+    return re.sub(
+        r"\bsample (\d+)", lambda found: f"row {start + int(found[1]) + 1}", message, count=1
+    )
+
+
+def chunks(total: int) -> list[tuple[int, int]]:
+    """Cut `total` rows into at most CHUNKS pieces of equal length."""
+    length = max(1, math.ceil(total / CHUNKS))
+    return [(start, min(start + length, total)) for start in range(0, total, length)]
+
+
+def joined(
+    pieces: list[Any], samples: Samples, rows: NDArray[np.int64], eigenvalues: Array, last: Array
+) -> Trace:
+    """Put the pieces of a run behind one another, as float64."""
+    total, outputs, n = len(samples.y), samples.y.shape[1], samples.phi.shape[1]
+
+    def all_of(name: str) -> Array:
+        return np.concatenate([getattr(piece, name) for piece in pieces])
+
+    return Trace(
+        theta=all_of("theta").astype(np.float64).reshape(total, n, outputs),
+        error=all_of("error").astype(np.float64).reshape(total, outputs),
+        forgetting_factor=all_of("forgetting_factor").astype(np.float64),
+        leverage=all_of("leverage").astype(np.float64),
+        skipped=all_of("skipped").astype(np.uint8),
+        windup=all_of("windup").astype(bool),
+        variance=all_of("variance").astype(np.float64),
+        rows=rows,
+        eigenvalues=eigenvalues,
+        covariance=np.array(last, dtype=np.float64),
+    )
+
+
+def errors_without_forgetting(samples: Samples, initial_covariance: Any, dtype: str) -> Array:
+    """One-step errors (T, m) of the same model with the rule that never forgets."""
+    estimator = fg.RLS(
+        samples.phi.shape[1],
+        rule=fg.rule("none"),
+        targets=samples.y.shape[1],
+        initial_covariance=initial_covariance,
+        dtype=dtype,
+    )
+    phi = samples.phi.astype(dtype)
+    y = (samples.y if samples.y.shape[1] > 1 else samples.y[:, 0]).astype(dtype)
+    result = estimator.run(phi, y, outputs=("error",), missing="skip")
+    return np.asarray(result.error, dtype=np.float64).reshape(samples.y.shape)

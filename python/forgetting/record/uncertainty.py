@@ -1,0 +1,48 @@
+"""Noise variance and standard errors of the estimates.
+
+With s = phi P phi' (P after forgetting, before measuring; the leverage of the sample) a one-step
+error has variance sigma² (1 + s), so e² / (1 + s) estimates the noise variance sigma² from one
+sample. The running estimate is their plain mean,
+
+    sigma²_k = mean of e_j² / (1 + s_j) over the used samples j <= k but the first n
+    standard error of theta_i after sample k = sqrt(sigma²_k P_ii,k)
+
+with n the number of regressors: the first n errors show the initial guess, not the noise. Skipped
+samples (missing, or in the dead zone) do not enter, as they do not enter P.
+
+Why the mean does not forget, although the rule does: in a quiet stretch (zero input, zero error) an
+estimate with the rule's memory falls as lambda^k, exactly as fast as P of exponential forgetting
+grows, and the standard error would hide the windup; with a directional rule it would shrink for
+parameters about which the stretch says nothing. So the noise level is one number that the whole
+record up to here supports, and P alone carries the memory.
+
+What the number means: P of a forgetting rule is the covariance of parameters that drift as that
+rule assumes (a random walk whose step covariance is what `forget` adds to P; Lai and Bernstein
+2024). If the parameters do not drift at all, it is an upper bound: with exponential forgetting the
+true variance is then about half of it. It does not cover a wrong model, nor errors that are
+correlated in time.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from forgetting.record.trace import USED, Trace
+
+Array = NDArray[np.float64]
+
+
+def noise_variance(trace: Trace) -> Array:
+    """Running noise variance of each output, (T, m); NaN until n + 1 samples were used."""
+    used = trace.skipped == USED
+    counted = used & (np.cumsum(used) > trace.theta.shape[1])
+    normalised = trace.error**2 / (1.0 + trace.leverage[:, None])
+    total = np.cumsum(np.where(counted[:, None], normalised, 0.0), axis=0)
+    count = np.cumsum(counted)[:, None]
+    return np.where(count > 0, total / np.maximum(count, 1), np.nan)
+
+
+def standard_errors(trace: Trace) -> Array:
+    """Standard error of every parameter after every sample, (T, n, m)."""
+    return np.sqrt(trace.variance[:, :, None] * noise_variance(trace)[:, None, :])

@@ -1,0 +1,75 @@
+"""A report page: titled blocks of text, tables and pictures in one HTML file."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
+
+import forgetting as fg
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table; cells are text already, all columns but the first are right-aligned."""
+
+    header: Sequence[str]
+    rows: Sequence[Sequence[str]]
+
+
+@dataclass(frozen=True)
+class Block:
+    """A part of a page: any of its fields may be empty.
+
+    Attributes
+    ----------
+    title, text : str
+        Heading and paragraph.
+    table : Table, optional
+    pictures : sequence of Markup
+        Inline SVG, from `forgetting.report.svg.inline`.
+    folded : bool
+        Whether it starts closed.
+    """
+
+    title: str = ""
+    text: str = ""
+    table: Table | None = None
+    pictures: Sequence[Markup] = ()
+    folded: bool = False
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A key number with its name and a remark."""
+
+    name: str
+    value: str
+    remark: str = ""
+
+
+@dataclass(frozen=True)
+class Page:
+    """A whole report."""
+
+    title: str
+    subtitle: str = ""
+    verdicts: Sequence[str] = ()
+    figures: Sequence[Figure] = ()
+    blocks: Sequence[Block] = field(default_factory=tuple)
+
+
+def write(page: Page, path: str | Path) -> None:
+    """Render a page to a file."""
+    environment = Environment(
+        loader=PackageLoader("forgetting.report", "."),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    html = environment.get_template("page.html.j2").render(page=page, version=fg.__version__)
+    Path(path).write_text(html, encoding="utf-8")

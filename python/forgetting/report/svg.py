@@ -1,0 +1,67 @@
+"""Matplotlib figures as inline SVG that follows the page's light or dark theme."""
+
+from __future__ import annotations
+
+import io
+import re
+
+from markupsafe import Markup
+from matplotlib import pyplot as plt
+from matplotlib.figure import Figure
+
+from forgetting.plot.style import (
+    BLUE,
+    FAINT,
+    GREEN,
+    GRID,
+    INK,
+    ORANGE,
+    PURPLE,
+    SKY,
+    VERMILLION,
+)
+
+VARIABLES = {
+    INK: "--ink",
+    FAINT: "--faint",
+    GRID: "--grid",
+    BLUE: "--blue",
+    VERMILLION: "--vermillion",
+    GREEN: "--green",
+    PURPLE: "--purple",
+    ORANGE: "--orange",
+    SKY: "--sky",
+}
+"""Colours of `forgetting.plot.style` and the CSS variables that stand for them in a page."""
+
+PREAMBLE = re.compile(r"^.*?(?=<svg)", re.DOTALL)
+METADATA = re.compile(r"<metadata>.*?</metadata>", re.DOTALL)
+NAMESPACES = re.compile(r'\s+xmlns(:\w+)?="[^"]*"')
+FONT = re.compile(r"font: ([^;\"]*?)px '[^;\"]*")
+
+
+def inline(figure: Figure, description: str) -> Markup:
+    """Render a figure and close it.
+
+    Parameters
+    ----------
+    figure : Figure
+        Drawn inside ``with forgetting.plot.styled():``.
+    description : str
+        What the picture shows, for those who cannot see it.
+    """
+    stream = io.StringIO()
+    figure.savefig(stream, format="svg", transparent=True, metadata={"Date": None})
+    plt.close(figure)
+    return Markup(themed(stream.getvalue(), description))
+
+
+def themed(svg: str, description: str) -> str:
+    """Strip what HTML does not need and put the page's colours and font in."""
+    svg = PREAMBLE.sub("", svg, count=1)
+    svg = NAMESPACES.sub("", METADATA.sub("", svg))
+    for colour, variable in VARIABLES.items():
+        svg = svg.replace(colour, f"var({variable})")
+    svg = FONT.sub(r"font: \1px var(--font)", svg)
+    label = description.replace("&", "&amp;").replace('"', "&quot;").replace("<", "&lt;")
+    return svg.replace("<svg ", f'<svg role="img" aria-label="{label}" ', 1)

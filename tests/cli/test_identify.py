@@ -1,0 +1,123 @@
+"""`forgetting identify`: what it prints and writes."""
+
+from __future__ import annotations
+
+import json
+
+import forgetting as fg
+import numpy as np
+import pandas as pd
+import pytest
+from forgetting.record import identify
+
+FORMULA = ("--formula", "V ~ lag(V) + I + lag(I)")
+
+
+def test_prints_what_was_found(forgetting, battery):
+    run = forgetting("identify", battery, *FORMULA, "--rule", "none")
+    assert (run.code, run.err) == (0, "")
+    for part in (
+        "battery.csv",
+        "NoForgetting()",
+        "lag(V)",
+        "One-step RMSE on 195 samples",
+        "no forgetting",
+        "last value",
+        "200: 199 used, 1 missing, 0 in the dead zone",
+        "largest / smallest eigenvalue of P",
+        # The voltage hardly leaves 4 V, so its lag and the constant look alike.
+        "Weakly excited at the end: Intercept",
+    ):
+        assert part in run.out, part
+
+
+def test_json_equals_python(forgetting, battery):
+    arguments = ("--output", "V", "--input", "I", "--arx", "1,2,0", "--rule", "exponential")
+    run = forgetting("identify", battery, *arguments, "--forgetting-factor", "0.98", "--json")
+    printed = json.loads(run.out)
+    found = identify(battery, output="V", input="I", arx=(1, 2, 0), rule=fg.Exponential(0.98))
+    assert printed == json.loads(json.dumps(found.summary())) | {"written": []}
+    assert [row["parameter"] for row in printed["parameters"]] == ["-V(k-1)", "I(k)", "I(k-1)"]
+
+
+def test_finds_the_coefficients(forgetting, battery):
+    run = forgetting(
+        "identify", battery, *FORMULA, "--initial-covariance", "1e8", "--rule", "none", "--json"
+    )
+    values = {row["parameter"]: row["value"] for row in json.loads(run.out)["parameters"]}
+    expected = {"Intercept": 0.4, "lag(V)": 0.9, "I": 0.05, "lag(I)": -0.03}
+    assert values == pytest.approx(expected, rel=1e-4)
+
+
+def test_several_outputs_and_inputs(forgetting, tmp_path):
+    rng = np.random.default_rng(0)
+    frame = pd.DataFrame(rng.normal(size=(50, 4)), columns=["p", "q", "r", "s"])
+    frame.to_parquet(tmp_path / "four.parquet")
+    run = forgetting(
+        "identify",
+        tmp_path / "four.parquet",
+        "-y",
+        "p",
+        "-y",
+        "q",
+        "-u",
+        "r",
+        "-u",
+        "s",
+        "--arx",
+        "1,1,1",
+        "--json",
+    )
+    rows = json.loads(run.out)["parameters"]
+    assert [row["output"] for row in rows] == ["p"] * 4 + ["q"] * 4
+    assert [row["parameter"] for row in rows[:4]] == ["-p(k-1)", "-q(k-1)", "r(k-1)", "s(k-1)"]
+
+
+def test_writes_all_files(forgetting, battery, tmp_path):
+    report, plot = tmp_path / "o.html", tmp_path / "o.png"
+    estimates = tmp_path / "o.parquet"
+    run = forgetting(
+        "identify", battery, *FORMULA, "--report", report, "--plot", plot, "--estimates", estimates
+    )
+    assert run.code == 0
+    assert report.read_text(encoding="utf-8").startswith("<!doctype html>")
+    assert plot.read_bytes().startswith(b"\x89PNG")
+    assert len(pd.read_parquet(estimates)) == 200
+    for path in (report, plot, estimates):
+        assert f"wrote {path}" in run.out
+
+
+def test_every_rule_by_its_parameters(forgetting, battery):
+    common = ("identify", battery, *FORMULA, "--json", "--rule")
+    run = forgetting(*common, "exponential_resetting", "-l", "0.9", "--set", "information=0.5")
+    assert json.loads(run.out)["rule"] == (
+        "ExponentialResetting(forgetting_factor=0.9, information=0.5)"
+    )
+    run = forgetting(*common, "subspace", "--threshold", "0.25")
+    assert json.loads(run.out)["rule"] == "Subspace(forgetting_factor=0.99, threshold=0.25)"
+    diagonal = "information=0.1,0.2,0.3,0.4"
+    run = forgetting(*common, "exponential_resetting", "--set", diagonal)
+    assert run.code == 0
+
+
+def test_initial_covariance_per_parameter(forgetting, battery):
+    run = forgetting(
+        "identify",
+        battery,
+        *FORMULA,
+        "--initial-covariance",
+        "1,2,3,4",
+        "--json",
+        "--dtype",
+        "float32",
+    )
+    assert run.code == 0 and len(json.loads(run.out)["parameters"]) == 4
+
+
+def test_windup_is_told(forgetting, tmp_path):
+    x = np.r_[np.sin(np.arange(100.0)), np.zeros(300)]
+    pd.DataFrame({"x": x, "y": 2 * x}).to_csv(tmp_path / "quiet.csv", index=False)
+    run = forgetting(
+        "identify", tmp_path / "quiet.csv", "-f", "y ~ 0 + x", "-r", "exponential", "-l", "0.9"
+    )
+    assert run.code == 0 and "Windup:" in run.out

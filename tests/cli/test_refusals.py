@@ -1,0 +1,101 @@
+"""Everything a user can get wrong ends with exit code 2 and one sentence."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+import pytest
+
+MODEL = ("--formula", "V ~ I")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ((), "say the model: a formula, or output columns"),
+        (("--formula", "V ~ Q"), "no column 'Q'; its columns are 'time_s', 'I', 'V'"),
+        (("--formula", "V ~ ("), "cannot be read"),
+        (("--formula", "V"), "must read: output ~ regressors"),
+        (("--output", "volt", "--arx", "1,0,0"), "no column 'volt'; its columns are"),
+        (("--output", "V", "--input", "I", "--arx", "1,2"), "three whole numbers; got 2"),
+        (("--output", "V", "--arx", "a,b,c"), "three whole numbers na,nb,nk such as 1,2,0"),
+        ((*MODEL, "--output", "V"), "not both"),
+        ((*MODEL, "--time", "clock"), "no column 'clock'"),
+        ((*MODEL, "--rule", "exponental"), "no rule 'exponental'; close are 'exponential'"),
+        ((*MODEL, "--forgetting-factor", "0"), "forgetting_factor"),
+        ((*MODEL, "--forgetting-factor", "1.5"), "forgetting_factor"),
+        ((*MODEL, "--forgetting-factor", "nan"), "forgetting_factor"),
+        ((*MODEL, "--forgetting-factor", "fast"), "--forgetting-factor"),
+        ((*MODEL, "--threshold", "-1"), "threshold"),
+        ((*MODEL, "--rule", "none", "--forgetting-factor", "0.9"), "no parameter 'forgetting_f"),
+        ((*MODEL, "--set", "speed=3"), "has no parameter 'speed'; it has forgetting_factor"),
+        ((*MODEL, "--set", "threshold"), "--set takes name=value"),
+        ((*MODEL, "--set", "threshold=1", "--threshold", "2"), "threshold is given twice"),
+        ((*MODEL, "--set", "threshold=wide"), "threshold"),
+        ((*MODEL, "--initial-covariance", "-1"), "initial_covariance"),
+        ((*MODEL, "--initial-covariance", "much"), "--initial-covariance takes a number"),
+        ((*MODEL, "--initial-covariance", "1,2,3"), "initial_covariance"),
+        ((*MODEL, "--dtype", "float16"), "--dtype is 'float16'"),
+        ((*MODEL, "--report", "o.txt"), "--report writes .html, .htm, but got 'o.txt'"),
+        ((*MODEL, "--plot", "o.bmp"), "--plot writes .png"),
+        ((*MODEL, "--estimates", "o.xlsx"), "--estimates writes .parquet, .csv"),
+        ((*MODEL, "--report", "no/such/folder/o.html"), "there is no folder"),
+        ((*MODEL, "--frobnicate"), "--frobnicate"),
+    ],
+)
+def test_bad_use(forgetting, battery, arguments, words):
+    run = forgetting("identify", battery, *arguments)
+    assert words in run.sentence()
+    assert run.out == ""
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (None, "there is no file"),
+        ("", "is empty"),
+        ("I,V\n", "has a header and no rows"),
+        (
+            "I,V\n1,2\nbad,4\n3,6\n",
+            "column 'I' of record.csv must hold numbers, but row 2 is 'bad'",
+        ),
+        ("I,V\n1,2\n2,inf\n3,6\n", "column 'V' of record.csv is infinite in row 2"),
+        ("I,V\n1,\n,4\n", "no complete sample"),
+        ("I,V,I\n1,2,3\n", "two columns named 'I'"),
+        ("time,I,V\n0,1,2\n0,2,4\n", "time must increase"),
+    ],
+)
+def test_bad_data(forgetting, tmp_path, text, words):
+    path = tmp_path / "record.csv"
+    if text is not None:
+        path.write_text(text)
+    assert words in forgetting("identify", path, *MODEL).sentence()
+
+
+def test_overflow_of_a_rule_without_bound(forgetting, tmp_path):
+    x = np.r_[np.sin(np.arange(100.0)), np.zeros(20_000)]
+    pd.DataFrame({"x": x, "y": 2 * x}).to_csv(tmp_path / "quiet.csv", index=False)
+    run = forgetting(
+        "identify", tmp_path / "quiet.csv", "-f", "y ~ 0 + x", "-r", "exponential", "-l", "0.9"
+    )
+    assert "numerical range" in run.sentence() and "such as subspace" in run.err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("identify",), "Missing argument"),
+        (("nonsense",), "nonsense"),
+        (("--nonsense",), "--nonsense"),
+        (("rules", "subspaces"), "no rule 'subspaces'; close are 'subspace'"),
+        (("demo", "lunar"), "no demo 'lunar'; choose solar, cycling or all"),
+    ],
+)
+def test_bad_commands(forgetting, arguments, words):
+    assert words in forgetting(*arguments).sentence()
+
+
+def test_output_that_cannot_be_written(forgetting, battery, tmp_path):
+    (tmp_path / "o.csv").mkdir()
+    run = forgetting("identify", battery, *MODEL, "--estimates", tmp_path / "o.csv")
+    assert "o.csv" in run.err and run.code == 2 and run.err.count("\n") == 1

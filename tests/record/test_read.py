@@ -1,0 +1,126 @@
+"""Reading records: what is accepted, and the sentence for everything else."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+import pytest
+from forgetting.record import RecordError, identify, read
+
+
+def test_missing_file(tmp_path):
+    with pytest.raises(RecordError, match=r"there is no file .*nothing\.csv"):
+        read(tmp_path / "nothing.csv")
+
+
+def test_folder(tmp_path):
+    with pytest.raises(RecordError, match="is a folder"):
+        read(tmp_path)
+
+
+def test_empty_file(csv):
+    with pytest.raises(RecordError, match=r"record\.csv is empty"):
+        read(csv(""))
+
+
+def test_blank_file(csv):
+    with pytest.raises(RecordError, match="cannot be read as CSV"):
+        read(csv("\n\n"))
+
+
+def test_header_only(csv):
+    with pytest.raises(RecordError, match="has a header and no rows"):
+        read(csv("x,y\n"))
+
+
+def test_unknown_ending(csv):
+    with pytest.raises(RecordError, match=r"ends in \.xlsx; known endings are \.csv"):
+        read(csv("x\n1\n", "record.xlsx"))
+
+
+def test_not_parquet(csv):
+    with pytest.raises(RecordError, match="is not a Parquet file"):
+        read(csv("x,y\n1,2\n", "record.parquet"))
+
+
+def test_not_text(tmp_path):
+    path = tmp_path / "record.csv"
+    path.write_bytes(b"x,y\n\xff\xfe,2\n")
+    with pytest.raises(RecordError, match="is not UTF-8 text"):
+        read(path)
+
+
+def test_ragged_rows(csv):
+    with pytest.raises(RecordError, match="cannot be read as CSV"):
+        read(csv("x,y\n1,2\n1,2,3\n"))
+
+
+def test_rows_longer_than_the_header(csv):
+    with pytest.raises(RecordError, match="3 cells in its first row but 2 names in its header"):
+        read(csv("x,y\n0,2,3\n1,5,6\n"))
+
+
+def test_name_twice(csv):
+    with pytest.raises(RecordError, match="two columns named 'x'"):
+        read(csv("x,y,x\n1,2,3\n"))
+
+
+def test_text_in_a_number_column(csv):
+    path = csv("x,y\n1,2\n2,4\nbroken,6\n4,8\n")
+    with pytest.raises(RecordError, match=r"column 'x' of record.csv .* row 3 is 'broken'"):
+        identify(path, formula="y ~ 0 + x")
+
+
+def test_infinite_cell(csv):
+    with pytest.raises(RecordError, match=r"column 'x' of record\.csv is infinite in row 2"):
+        identify(csv("x,y\n1,2\ninf,4\n3,6\n"), formula="y ~ 0 + x")
+
+
+def test_unknown_column_names_the_close_ones(csv):
+    path = csv("voltage,current\n1,2\n2,4\n")
+    with pytest.raises(RecordError, match="no column 'volts'; close are 'voltage'"):
+        identify(path, output="volts", input="current", arx=(1, 1, 0))
+
+
+def test_unknown_column_far_from_all(csv):
+    path = csv("voltage,current\n1,2\n2,4\n")
+    with pytest.raises(RecordError, match="its columns are 'voltage', 'current'"):
+        identify(path, formula="voltage ~ zzz")
+
+
+@pytest.mark.parametrize("separator", [",", ";", "\t"])
+def test_separators(csv, separator):
+    text = "time,x,y\n0,1,2\n1,2,4\n2,3,6\n".replace(",", separator)
+    record = read(csv(text))
+    assert list(record.frame.columns) == ["time", "x", "y"]
+    assert record.frame["y"].tolist() == [2, 4, 6]
+
+
+def test_byte_order_mark_and_spaces(tmp_path):
+    path = tmp_path / "record.csv"
+    path.write_text("x, y\n1, 2\n", encoding="utf-8-sig")
+    assert list(read(path).frame.columns) == ["x", "y"]
+
+
+def test_parquet_is_the_same_record_as_csv(tmp_path, plant):
+    plant.to_csv(tmp_path / "plant.csv", index=False)
+    plant.to_parquet(tmp_path / "plant.parquet")
+    model = {"output": "y1", "input": ["u1", "u2"], "arx": (1, 1, 1)}
+    one = identify(tmp_path / "plant.csv", **model)
+    other = identify(tmp_path / "plant.parquet", **model)
+    assert np.array_equal(one.theta, other.theta)
+
+
+def test_tables_in_memory_keep_their_times():
+    index = pd.date_range("2024-01-01", periods=3, freq="min")
+    record = read(pd.DataFrame({"x": [1.0, 2.0, 3.0]}, index=index))
+    assert record.clock is not None and record.clock.seconds().tolist() == [0.0, 60.0, 120.0]
+    assert list(read(pd.DataFrame({"x": [1.0]}, index=[7])).frame.columns) == ["x"]
+
+
+def test_parquet_with_a_time_index(tmp_path):
+    index = pd.date_range("2024-01-01", periods=3, freq="h", name="time")
+    pd.DataFrame({"x": [1.0, 2.0, 3.0]}, index=index).to_parquet(tmp_path / "r.parquet")
+    record = read(tmp_path / "r.parquet")
+    assert record.clock is not None and record.clock.is_datetime
+    assert record.clock.seconds().tolist() == [0.0, 3600.0, 7200.0]
