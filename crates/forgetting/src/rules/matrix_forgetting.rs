@@ -95,7 +95,7 @@ impl<M: Memory> MatrixForgetting<M> {
             return Err(Error::value(INFORMATION.name, information.to_f64(), "within range"));
         }
         POWER.check(power as f64)?;
-        if power % 2 == 0 {
+        if power.is_multiple_of(2) {
             return Err(Error::value(POWER.name, power as f64, POWER.range.words));
         }
         let root = Root::scalar(&INFORMATION, information, memory)?;
@@ -115,6 +115,7 @@ impl<M: Memory> MatrixForgetting<M> {
     }
 
     /// bᴺ for the eigenvalue r of R.
+    #[inline]
     fn share(&self, r: M::Real) -> M::Real {
         let base = match self.shift {
             None => M::Real::ONE - self.information / r,
@@ -124,6 +125,7 @@ impl<M: Memory> MatrixForgetting<M> {
     }
 
     /// Forgets along eigenvector i.
+    #[inline]
     fn forget_along(&self, spectrum: &mut Spectrum<M>, step: &mut Step<'_, '_, M>, i: usize) {
         let r = spectrum.information()[i];
         let lost = (M::Real::ONE - step.forgetting_factor) * self.share(r);
@@ -166,6 +168,7 @@ impl<M: Memory> Forgetting<M> for MatrixForgetting<M> {
         Spectrum::new(memory)
     }
 
+    #[inline]
     fn forget(
         &self,
         spectrum: &mut Spectrum<M>,

@@ -107,6 +107,7 @@ fn refused_samples_change_nothing<T: Real>(sizes: (usize, usize, usize)) {
         all
     };
     let fine = (vec![T::ONE; p * n], vec![T::ONE; p * m]);
+    #[allow(clippy::type_complexity, reason = "phi, y and gamma of each bad sample")]
     let mut bad: Vec<(Vec<T>, Vec<T>, Option<Vec<T>>)> = Vec::new();
     for value in [nan, infinite, -infinite, huge] {
         bad.push((with(p * n, value), fine.1.clone(), None));
