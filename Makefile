@@ -47,6 +47,10 @@ $(VENV)/ready: pyproject.toml
 stubs: build
 	$(BIN)/python tools/generate.py
 
+docs: build
+	$(PIP) install sphinx myst-parser sphinx-gallery furo
+	$(BIN)/sphinx-build -W -b html docs docs/_build
+
 bench: build
 	$(BIN)/python -m benchmarks --quick
 

@@ -24,7 +24,7 @@
 //!
 //! Reference: A. Vahidi, A. Stefanopoulou, H. Peng, *Recursive least squares with forgetting for
 //! online estimation of vehicle mass and road grade: theory and experiments*, Vehicle System
-//! Dynamics 43, 2005; A. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
+//! Dynamics 43, 2005; B. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
 //! stability and robustness guarantees*, IEEE Transactions on Automatic Control, 2024, V-J.
 
 use super::{About, Claim, Forgetting, Forgotten, Step};
