@@ -147,9 +147,7 @@ impl<M: Memory> Forgetting<M> for Efra<M> {
             step.factor.reserve(M::Real::ONE, total)?;
             for (i, &weight) in added.as_ref().iter().enumerate() {
                 if weight > M::Real::ZERO {
-                    let direction = step.work.gain.as_mut();
-                    direction.copy_from_slice(spectrum.vector(i));
-                    step.factor.add_covariance(direction, weight);
+                    spectrum.widen(i, weight, step.factor, step.work);
                     rank += 1;
                 }
             }

@@ -30,7 +30,6 @@
 //! identifiers*, IEEE Transactions on Automatic Control 35, 1990.
 
 use super::{About, Claim, ExponentialResetting, Forgetting, Forgotten, Step};
-use crate::factor::kernel::add_scaled;
 use crate::parameter::{Parameter, Range, Value, Values};
 use crate::root::Root;
 use crate::spectrum::Spectrum;
@@ -96,7 +95,7 @@ impl<M: Memory> MatrixForgetting<M> {
             return Err(Error::value(INFORMATION.name, information.to_f64(), "within range"));
         }
         POWER.check(power as f64)?;
-        if power.is_multiple_of(2) {
+        if power % 2 == 0 {
             return Err(Error::value(POWER.name, power as f64, POWER.range.words));
         }
         let root = Root::scalar(&INFORMATION, information, memory)?;
@@ -116,7 +115,6 @@ impl<M: Memory> MatrixForgetting<M> {
     }
 
     /// bᴺ for the eigenvalue r of R.
-    #[inline]
     fn share(&self, r: M::Real) -> M::Real {
         let base = match self.shift {
             None => M::Real::ONE - self.information / r,
@@ -126,19 +124,15 @@ impl<M: Memory> MatrixForgetting<M> {
     }
 
     /// Forgets along eigenvector i.
-    #[inline]
     fn forget_along(&self, spectrum: &mut Spectrum<M>, step: &mut Step<'_, '_, M>, i: usize) {
         let r = spectrum.information()[i];
         let lost = (M::Real::ONE - step.forgetting_factor) * self.share(r);
-        let direction = &mut step.work.first.as_mut()[..step.factor.parameters()];
         if lost > M::Real::ZERO {
-            direction.copy_from_slice(spectrum.vector(i));
-            step.factor.add_covariance(direction, lost / ((M::Real::ONE - lost) * r));
+            let weight = lost / ((M::Real::ONE - lost) * r);
+            spectrum.widen(i, weight, step.factor, step.work);
         } else if lost < M::Real::ZERO {
             let gained = (-lost * r).min(M::Real::CEILING);
-            direction.fill(M::Real::ZERO);
-            add_scaled(direction, gained.sqrt(), spectrum.vector(i));
-            step.factor.add_information(direction, step.work.gain.as_mut());
+            spectrum.narrow(i, gained, step.factor, step.work);
         }
         spectrum.set_information(i, r - lost * r);
     }
@@ -172,7 +166,6 @@ impl<M: Memory> Forgetting<M> for MatrixForgetting<M> {
         Spectrum::new(memory)
     }
 
-    #[inline]
     fn forget(
         &self,
         spectrum: &mut Spectrum<M>,

@@ -114,10 +114,9 @@ impl<M: Memory> Multiple<M> {
             if !(one >= 1.0 && libm::trunc(one) == one && end <= n as f64) {
                 return Err(refuse(BLOCKS.name, b, one, "whole numbers >= 1 that add up to n"));
             }
-            let lambda = M::Real::from_f64(factor(b));
-            if !(lambda > M::Real::ZERO && lambda <= M::Real::ONE) {
-                return Err(refuse(FACTORS.name, b, factor(b), FACTORS.range.words));
-            }
+            let lambda = FACTORS
+                .convert(factor(b))
+                .map_err(|_| refuse(FACTORS.name, b, factor(b), FACTORS.range.words))?;
             sizes.as_mut()[b] = M::Real::from_f64(one);
             factors.as_mut()[b] = lambda;
         }
@@ -128,7 +127,6 @@ impl<M: Memory> Multiple<M> {
     }
 
     /// Each block: its first parameter, its size and its factor.
-    #[inline]
     fn blocks(&self) -> impl Iterator<Item = (usize, usize, M::Real)> + '_ {
         let sizes = self.sizes.as_ref()[..self.count].iter().map(|size| size.to_f64() as usize);
         sizes.zip(self.factors.as_ref()).scan(0, |start, (size, &factor)| {
@@ -212,7 +210,6 @@ impl<M: Memory> Forgetting<M> for Multiple<M> {
         Blocks { columns, diagonal, started: 0, work: memory.square() }
     }
 
-    #[inline]
     fn forget(&self, state: &mut Blocks<M>, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         let least = self.blocks().fold(M::Real::ONE, |least, (_, _, lambda)| least.min(lambda));
         // R_bb⁻¹ ≤ P_bb, so that P̄ is at most P/λ of the smallest λ

@@ -36,7 +36,6 @@
 //! the transposes that (70) lost.
 
 use super::{About, Claim, Forgetting, Forgotten, Step};
-use crate::factor::kernel::add_scaled;
 use crate::parameter::{Parameter, Range, Value, Values};
 use crate::spectrum::Spectrum;
 use crate::{Error, Memory, Real};
@@ -79,7 +78,6 @@ impl<M: Memory> VariableDirection<M> {
 
     /// Marks the excited eigenvectors with 1 in `work.second`, and forgets along those of
     /// uneven clusters; returns the number of excited ones and of those dealt with.
-    #[inline]
     fn find(&self, spectrum: &mut Spectrum<M>, step: &mut Step<'_, '_, M>) -> (usize, usize) {
         let n = step.factor.parameters();
         let growth = M::Real::ONE / step.forgetting_factor;
@@ -88,24 +86,22 @@ impl<M: Memory> VariableDirection<M> {
         for (i, components) in components.chunks_exact_mut(n).enumerate() {
             spectrum.project(step.sample.row(i), components);
         }
-        let marks = &mut step.work.second.as_mut()[..n];
-        marks.fill(M::Real::ZERO);
+        step.work.second.as_mut()[..n].fill(M::Real::ZERO);
         let (mut start, mut rank, mut done) = (0, 0, 0);
         while start < n {
             let cluster = spectrum.cluster(start);
             let uneven = spectrum.is_uneven(cluster.clone());
+            let components = &mut step.work.first.as_mut()[..rows * n];
             let found = spectrum.align(cluster.clone(), components, self.threshold);
             if uneven && found > 0 {
                 for i in start..start + found {
                     let weight = (growth - M::Real::ONE) * spectrum.variance(cluster.clone(), i);
-                    let direction = step.work.gain.as_mut();
-                    direction.copy_from_slice(spectrum.vector(i));
-                    step.factor.add_covariance(direction, weight);
+                    spectrum.widen(i, weight, step.factor, step.work);
                 }
                 spectrum.settle(cluster.clone(), found, growth);
                 done += found;
             } else {
-                marks[start..start + found].fill(M::Real::ONE);
+                step.work.second.as_mut()[start..start + found].fill(M::Real::ONE);
             }
             rank += found;
             start = cluster.end;
@@ -115,7 +111,6 @@ impl<M: Memory> VariableDirection<M> {
 }
 
 /// Forgets along the eigenvectors marked in `work.second`, each alone in its cluster.
-#[inline]
 fn forget_marked<M: Memory>(
     spectrum: &mut Spectrum<M>,
     step: &mut Step<'_, '_, M>,
@@ -123,23 +118,17 @@ fn forget_marked<M: Memory>(
 ) -> Result<(), Error> {
     let lambda = step.forgetting_factor;
     let lost = M::Real::ONE - lambda;
-    let marks = step.work.second.as_ref();
-    let direction = &mut step.work.first.as_mut()[..step.factor.parameters()];
     if rest_is_small {
         step.factor.scale(M::Real::ONE / lambda)?;
     }
-    for (i, &mark) in marks[..direction.len()].iter().enumerate() {
-        let marked = mark > M::Real::ZERO;
+    for i in 0..step.factor.parameters() {
+        let marked = step.work.second.as_ref()[i] > M::Real::ZERO;
         let information = spectrum.information()[i];
         if rest_is_small && !marked {
-            let weight = (lost * information).sqrt();
-            direction.fill(M::Real::ZERO);
-            add_scaled(direction, weight, spectrum.vector(i));
-            step.factor.add_information(direction, step.work.gain.as_mut());
+            spectrum.narrow(i, lost * information, step.factor, step.work);
         } else if marked {
             if !rest_is_small {
-                direction.copy_from_slice(spectrum.vector(i));
-                step.factor.add_covariance(direction, lost / (lambda * information));
+                spectrum.widen(i, lost / (lambda * information), step.factor, step.work);
             }
             spectrum.set_information(i, lambda * information);
         }
@@ -162,7 +151,6 @@ impl<M: Memory> Forgetting<M> for VariableDirection<M> {
         Spectrum::new(memory)
     }
 
-    #[inline]
     fn forget(
         &self,
         spectrum: &mut Spectrum<M>,

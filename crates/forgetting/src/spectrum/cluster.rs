@@ -12,7 +12,6 @@ const SWEEPS: usize = 40;
 impl<M: Memory> Spectrum<M> {
     /// The eigenvalues from `start` on that are equal but for the square root of the precision,
     /// each with the one before.
-    #[inline(always)]
     pub fn cluster(&self, start: usize) -> Range<usize> {
         let values = self.information.as_ref();
         let tolerance = M::Real::EPSILON.sqrt();
@@ -29,7 +28,6 @@ impl<M: Memory> Spectrum<M> {
     /// `components` holds φ V, p rows of n numbers, of which it uses up those of the cluster.
     /// Where the eigenvalues differ, the vectors are no longer eigenvectors until
     /// [`Spectrum::settle`].
-    #[inline(always)]
     pub fn align(
         &mut self,
         cluster: Range<usize>,
@@ -62,7 +60,6 @@ impl<M: Memory> Spectrum<M> {
     }
 
     /// Whether the eigenvalues of a cluster differ by more than rounding.
-    #[inline(always)]
     pub fn is_uneven(&self, cluster: Range<usize>) -> bool {
         let values = &self.information.as_ref()[cluster];
         values[values.len() - 1] - values[0] > M::Real::EPSILON * M::Real::from_f64(4.0) * values[0]

@@ -1,105 +1,112 @@
 //! New eigenvectors as combinations of old ones: the one step that costs O(n³).
 
+use crate::vector::Vector;
 use crate::Real;
 
-const TILE: usize = 4;
+/// Rows of a panel, which then stays in the fastest memory.
 const DEPTH: usize = 64;
+/// Room for the longest chunk of numbers.
+const LONGEST: usize = 16;
 
-/// Row j of `product` ← Σ_i turn_ji·(row i of `vectors`), over the rows with a component ≠ 0.
+/// The old eigenvectors that are combined: the rows of n numbers with a component other than 0.
+#[derive(Clone, Copy)]
+pub struct Rows<'a, T> {
+    pub vectors: &'a [T],
+    pub n: usize,
+    pub components: &'a [T],
+}
+
+/// Row j of `product` ← Σ_i turn_ji·(row i).
 ///
-/// In tiles of 4 x 4 numbers that stay in registers, over panels of the vectors that are copied
-/// to be neighbours.
+/// In tiles of `GROUP` rows and one chunk of columns that stay in registers, over panels of the
+/// vectors that are copied to be neighbours. The terms of a sum are added in their order.
 #[inline(always)]
-pub fn combine<T: Real>(
+pub fn combine<T: Real, V: Vector<T>, const GROUP: usize>(
     turn: &[T],
     active: usize,
-    vectors: &[T],
-    n: usize,
-    components: &[T],
+    rows: Rows<'_, T>,
     product: &mut [T],
 ) {
-    let mut panel = [[T::ZERO; TILE]; DEPTH];
-    for column in (0..n).step_by(TILE) {
-        let width = TILE.min(n - column);
-        let mut done = 0;
-        let mut filled = 0;
-        for (i, &component) in components.iter().enumerate() {
+    let lanes = size_of::<T::Chunk>() / size_of::<T>();
+    let mut panel = [T::ZERO; DEPTH * LONGEST];
+    for column in (0..rows.n).step_by(lanes) {
+        let place = Place { column, width: lanes.min(rows.n - column), n: rows.n };
+        let (mut first, mut filled) = (0, 0);
+        for (row, &component) in rows.vectors.chunks_exact(rows.n).zip(rows.components) {
             if component == T::ZERO {
                 continue;
             }
-            panel[filled][..width].copy_from_slice(&vectors[i * n + column..][..width]);
+            panel[filled * lanes..][..place.width]
+                .copy_from_slice(&row[column..column + place.width]);
             filled += 1;
-            if filled == DEPTH {
-                let place = Place { column, width, n, first: done };
-                add(turn, active, &panel[..filled], place, product);
-                done += filled;
-                filled = 0;
+            if first + filled == active || filled == DEPTH {
+                let (panel, _) = T::chunks(&panel[..filled * lanes]);
+                add::<T, V, GROUP>(turn, active, (panel, first), place, product);
+                (first, filled) = (first + filled, 0);
             }
-        }
-        if filled > 0 {
-            let place = Place { column, width, n, first: done };
-            add(turn, active, &panel[..filled], place, product);
         }
     }
 }
 
-/// Which columns of the product a panel is for, and which of the old vectors it starts with.
+/// The columns of the product that a panel is for.
 #[derive(Clone, Copy)]
 struct Place {
     column: usize,
     width: usize,
     n: usize,
-    first: usize,
 }
 
-/// Adds what a panel contributes to all new vectors; the first panel replaces.
+/// Adds what a panel, of the old vectors from `first` on, contributes to all new ones; the first
+/// panel replaces.
 #[inline(always)]
-fn add<T: Real>(turn: &[T], active: usize, panel: &[[T; TILE]], place: Place, product: &mut [T]) {
-    let Place { column, width, n, first } = place;
-    let weights = |j: usize| &turn[j * active + first..][..panel.len()];
-    let mut put = |j: usize, sums: &[T; TILE]| {
-        let target = &mut product[j * n + column..][..width];
-        for (x, &sum) in target.iter_mut().zip(sums) {
-            *x = if first == 0 { sum } else { *x + sum };
-        }
-    };
+fn add<T: Real, V: Vector<T>, const GROUP: usize>(
+    turn: &[T],
+    active: usize,
+    (panel, first): (&[T::Chunk], usize),
+    place: Place,
+    product: &mut [T],
+) {
+    let Place { column, width, n } = place;
     let mut j = 0;
-    while j + TILE <= active {
-        let sums = tile([weights(j), weights(j + 1), weights(j + 2), weights(j + 3)], panel);
-        for (r, sums) in sums.iter().enumerate() {
-            put(j + r, sums);
-        }
-        j += TILE;
-    }
     while j < active {
-        put(j, &strip(weights(j), panel));
-        j += 1;
-    }
-}
-
-/// Four combinations of the rows of a panel.
-#[inline(always)]
-fn tile<T: Real>(weights: [&[T]; TILE], panel: &[[T; TILE]]) -> [[T; TILE]; TILE] {
-    let mut sums = [[T::ZERO; TILE]; TILE];
-    let [a, b, c, d] = weights;
-    for ((((row, &a), &b), &c), &d) in panel.iter().zip(a).zip(b).zip(c).zip(d) {
-        for (sums, weight) in sums.iter_mut().zip([a, b, c, d]) {
-            for (sum, &x) in sums.iter_mut().zip(row) {
-                *sum = weight.mul_add(x, *sum);
+        let rows = if active - j >= GROUP { GROUP } else { 1 };
+        let mut sums = [V::splat(T::ZERO); GROUP];
+        if rows == GROUP {
+            let weights =
+                core::array::from_fn(|r| &turn[(j + r) * active + first..][..panel.len()]);
+            tile::<T, V, GROUP>(weights, panel, &mut sums);
+        } else {
+            let mut one = [sums[0]];
+            tile::<T, V, 1>([&turn[j * active + first..][..panel.len()]], panel, &mut one);
+            sums[0] = one[0];
+        }
+        for (r, sum) in sums.iter().take(rows).enumerate() {
+            let mut buffer = [T::ZERO; LONGEST];
+            if let Some(chunk) = T::chunks_mut(&mut buffer).0.first_mut() {
+                sum.store(chunk);
+            }
+            let target = &mut product[(j + r) * n + column..][..width];
+            for (x, &sum) in target.iter_mut().zip(&buffer) {
+                *x = if first == 0 { sum } else { *x + sum };
             }
         }
+        j += rows;
     }
-    sums
 }
 
-/// One combination of the rows of a panel.
+/// `R` combinations of the rows of a panel.
 #[inline(always)]
-fn strip<T: Real>(weights: &[T], panel: &[[T; TILE]]) -> [T; TILE] {
-    let mut sums = [T::ZERO; TILE];
-    for (row, &weight) in panel.iter().zip(weights) {
-        for (sum, &x) in sums.iter_mut().zip(row) {
-            *sum = weight.mul_add(x, *sum);
+fn tile<T: Real, V: Vector<T>, const R: usize>(
+    weights: [&[T]; R],
+    panel: &[T::Chunk],
+    sums: &mut [V; R],
+) {
+    let mut partial = *sums;
+    for (i, chunk) in panel.iter().enumerate() {
+        let x = V::load(chunk);
+        for r in 0..R {
+            partial[r] = V::splat(weights[r][i]).mul_add(x, partial[r]);
         }
     }
-    sums
+    *sums = partial;
 }

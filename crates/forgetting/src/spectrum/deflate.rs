@@ -7,7 +7,6 @@ use crate::{Memory, Real};
 impl<M: Memory> Spectrum<M> {
     /// Leaves the components of `row` in `components`, 0 where it changes nothing, and those
     /// that are not 0 with their eigenvalues in `weights` and `poles`; returns their number.
-    #[inline(always)]
     pub(super) fn deflate(&mut self, row: &[M::Real]) -> usize {
         let n = self.memory.parameters();
         let length = dot(row, row).sqrt();
@@ -34,7 +33,6 @@ impl<M: Memory> Spectrum<M> {
 
     /// Turns the vectors of two equal eigenvalues so that the row has no component along the
     /// first; returns its component along the second.
-    #[inline(always)]
     fn merge(&mut self, first: usize, second: usize, z: M::Real) -> M::Real {
         let n = self.memory.parameters();
         let before = self.components.as_ref()[first];
@@ -48,7 +46,6 @@ impl<M: Memory> Spectrum<M> {
 
 /// Whether z²/(r + z²) is beyond the precision: then neither the eigenvalue nor, against the
 /// rounding of a row of this length, the eigenvector changes.
-#[inline(always)]
 fn negligible<T: Real>(z: T, value: T, length: T) -> bool {
     let square = z * z;
     square <= T::EPSILON * T::EPSILON * value
@@ -56,7 +53,6 @@ fn negligible<T: Real>(z: T, value: T, length: T) -> bool {
 }
 
 /// The difference below which two eigenvalues of this size are the same.
-#[inline(always)]
 fn same<T: Real>(value: T) -> T {
     value * (T::EPSILON * T::from_f64(4.0))
 }

@@ -48,7 +48,6 @@ pub(super) fn axes<T: Real>(rows: &mut [T], n: usize) {
 }
 
 /// One rotation of each pair of rows that needs it; whether any did.
-#[inline(always)]
 fn sweep<T: Real>(rows: &mut [T], vectors: &mut [T], n: usize, tolerance: T) -> bool {
     let mut rotated = false;
     for i in 0..n {
@@ -70,7 +69,6 @@ fn sweep<T: Real>(rows: &mut [T], vectors: &mut [T], n: usize, tolerance: T) -> 
 }
 
 /// The rotation that makes c zero in [[a, c], [c, b]].
-#[inline(always)]
 pub(super) fn rotation<T: Real>(a: T, b: T, c: T) -> (T, T) {
     let zeta = (b - a) / (c + c);
     let sign = if zeta < T::ZERO { -T::ONE } else { T::ONE };
@@ -80,7 +78,6 @@ pub(super) fn rotation<T: Real>(a: T, b: T, c: T) -> (T, T) {
 }
 
 /// Makes nearly orthonormal rows orthonormal; false if they were far from it.
-#[inline(always)]
 fn orthonormalize<T: Real>(rows: &mut [T], n: usize) -> bool {
     for i in 0..n {
         let (done, rest) = rows.split_at_mut(i * n);

@@ -5,6 +5,7 @@
 //! the eigenvalues and what each row of a sample adds (the secular equation), and is renewed
 //! from the factor every [`Spectrum::PERIOD`] samples, so that rounding cannot pile up.
 
+mod along;
 mod cluster;
 mod combine;
 mod deflate;
@@ -13,7 +14,9 @@ mod secular;
 
 use crate::factor::kernel::dot;
 use crate::state::{State, Visitor};
-use crate::{Factor, Memory, Real};
+use crate::vector::Vector;
+use crate::{Factor, Kernel, Memory, Real};
+use combine::Rows;
 
 /// R = P⁻¹ = Σ_i r_i v_i v_iᵀ with r ascending.
 #[derive(Clone, Debug)]
@@ -57,26 +60,22 @@ impl<M: Memory> Spectrum<M> {
     }
 
     /// The eigenvalues of P⁻¹, in the order of the vectors, ascending after [`Spectrum::sort`].
-    #[inline(always)]
     pub fn information(&self) -> &[M::Real] {
         self.information.as_ref()
     }
 
     /// The i-th eigenvector, of length 1.
-    #[inline(always)]
     pub fn vector(&self, i: usize) -> &[M::Real] {
         let n = self.memory.parameters();
         &self.vectors.as_ref()[i * n..(i + 1) * n]
     }
 
     /// r_i ← `information`, kept within the range of what P can be.
-    #[inline(always)]
     pub fn set_information(&mut self, i: usize, information: M::Real) {
         self.information.as_mut()[i] = information.max(M::Real::FLOOR).min(M::Real::CEILING);
     }
 
     /// To be called once a sample, before the spectrum is used: computes it when it is due.
-    #[inline(always)]
     pub fn follow(&mut self, factor: &Factor<M>) {
         if self.age == 0 || self.age >= Self::PERIOD {
             self.renew(factor);
@@ -87,7 +86,6 @@ impl<M: Memory> Spectrum<M> {
     }
 
     /// φ V: the components of the n numbers `row` along the eigenvectors.
-    #[inline(always)]
     pub fn project(&self, row: &[M::Real], components: &mut [M::Real]) {
         let n = self.memory.parameters();
         for (c, v) in components.iter_mut().zip(self.vectors.as_ref().chunks_exact(n)) {
@@ -96,7 +94,6 @@ impl<M: Memory> Spectrum<M> {
     }
 
     /// Sorts by eigenvalue; nearly free when nothing is out of order.
-    #[inline(always)]
     pub fn sort(&mut self) {
         let n = self.memory.parameters();
         let values = self.information.as_mut();
@@ -119,7 +116,6 @@ impl<M: Memory> Spectrum<M> {
     /// eigenproblem*, Numerische Mathematik 31, 1978; M. Gu, S. C. Eisenstat, *A stable and
     /// efficient algorithm for the rank-one modification of the symmetric eigenproblem*, SIAM
     /// Journal on Matrix Analysis and Applications 15, 1994.
-    #[inline(always)]
     pub fn learn(&mut self, row: &[M::Real]) {
         self.sort();
         let active = self.deflate(row);
@@ -135,20 +131,22 @@ impl<M: Memory> Spectrum<M> {
     }
 
     /// The new eigenvalues and eigenvectors of the `active` ones; false if out of range.
-    #[inline(always)]
     fn update(&mut self, active: usize) -> bool {
         let n = self.memory.parameters();
-        let (poles, weights) = (&self.poles.as_ref()[..active], &self.weights.as_ref()[..active]);
-        let turn = &mut self.square.as_mut()[..active * active];
+        let components = self.components.as_ref();
         let roots = &mut self.roots.as_mut()[..active];
-        secular::roots(poles, weights, turn, roots);
-        // the row of `product` is free until the vectors are combined
-        if !secular::vectors(poles, weights, turn, &mut self.product.as_mut()[..active]) {
+        let sound = M::Real::compute(Update {
+            poles: &self.poles.as_ref()[..active],
+            weights: &self.weights.as_ref()[..active],
+            rows: Rows { vectors: self.vectors.as_ref(), n, components },
+            turn: &mut self.square.as_mut()[..active * active],
+            roots,
+            product: self.product.as_mut(),
+        });
+        if !sound {
             return false;
         }
-        let (components, product) = (self.components.as_ref(), self.product.as_mut());
-        combine::combine(turn, active, self.vectors.as_ref(), n, components, product);
-        let mut combined = product.chunks_exact(n).zip(roots.iter());
+        let mut combined = self.product.as_ref().chunks_exact(n).zip(roots.iter());
         for (i, vector) in self.vectors.as_mut().chunks_exact_mut(n).enumerate() {
             if components[i] != M::Real::ZERO {
                 if let Some((row, &root)) = combined.next() {
@@ -161,6 +159,38 @@ impl<M: Memory> Spectrum<M> {
     }
 }
 
+/// The rank-one update of the eigenvalues and eigenvectors that it changes.
+struct Update<'a, T> {
+    poles: &'a [T],
+    weights: &'a [T],
+    rows: Rows<'a, T>,
+    turn: &'a mut [T],
+    roots: &'a mut [T],
+    product: &'a mut [T],
+}
+
+impl<T: Real> Kernel<T> for Update<'_, T> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn size(&self) -> usize {
+        self.poles.len()
+    }
+
+    #[inline(always)]
+    fn run<V: Vector<T>, const GROUP: usize>(self) -> bool {
+        let Self { poles, weights, rows, turn, roots, product } = self;
+        let active = poles.len();
+        secular::roots(poles, weights, turn, roots);
+        // the product is free until the vectors are combined
+        let sound = secular::vectors(poles, weights, turn, &mut product[..active]);
+        if sound {
+            combine::combine::<T, V, GROUP>(turn, active, rows, product);
+        }
+        sound
+    }
+}
+
 impl<M: Memory> State<M::Real> for Spectrum<M> {
     fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
         visitor.reals(self.vectors.as_mut());
@@ -170,21 +200,18 @@ impl<M: Memory> State<M::Real> for Spectrum<M> {
 }
 
 /// Rows i and i + 1 of rows of n numbers change places.
-#[inline(always)]
 fn swap_rows<T: Real>(rows: &mut [T], n: usize, i: usize) {
     let (above, below) = rows[i * n..].split_at_mut(n);
     above.swap_with_slice(&mut below[..n]);
 }
 
 /// Rows i < k of rows of n numbers.
-#[inline(always)]
 fn two_rows<T: Real>(rows: &mut [T], n: usize, i: usize, k: usize) -> (&mut [T], &mut [T]) {
     let (above, below) = rows.split_at_mut(k * n);
     (&mut above[i * n..(i + 1) * n], &mut below[..n])
 }
 
 /// (x, y) ← (cosine·x − sine·y, sine·x + cosine·y)
-#[inline(always)]
 fn rotate<T: Real>(x: &mut [T], y: &mut [T], cosine: T, sine: T) {
     for (x, y) in x.iter_mut().zip(y) {
         let (before_x, before_y) = (*x, *y);

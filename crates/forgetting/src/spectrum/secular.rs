@@ -4,7 +4,7 @@
 use crate::Real;
 
 /// More steps than any root needs; halving the interval is what the last of them do.
-const STEPS: usize = 60;
+const STEPS: usize = 100;
 
 /// The roots x_j, written to `roots`; row j of the m x m numbers `gaps` becomes d_i − x_j, each
 /// to full relative precision.
@@ -95,6 +95,7 @@ fn solve<T: Real>(poles: &[T], z: &[T], j: usize, interval: Interval<T>) -> T {
     let inside = |x: T, low: T, high: T| x > low && x < high;
     let mut x = if inside(guess, low, high) { guess } else { halve(low, high) };
     let tolerance = T::EPSILON * T::from_f64(4.0);
+    let settled = T::EPSILON.sqrt() * T::from_f64(0.05);
     for _ in 0..STEPS {
         let (below, below_slope) = evaluate(&poles[..=j], &z[..=j], x);
         let (above, above_slope) = evaluate(&poles[j + 1..], &z[j + 1..], x);
@@ -107,17 +108,31 @@ fn solve<T: Real>(poles: &[T], z: &[T], j: usize, interval: Interval<T>) -> T {
         } else {
             high = x;
         }
-        let step = if j + 1 < poles.len() {
-            between(f, poles[j] - x, below_slope, poles[j + 1] - x, above_slope)
-        } else {
+        let last = j + 1 == poles.len();
+        let step = if last {
             beyond(f, poles, z, below_slope, x)
+        } else {
+            between(f, poles[j] - x, below_slope, poles[j + 1] - x, above_slope)
         };
         let next = x + step;
-        let next = if inside(next, low, high) { next } else { halve(low, high) };
-        if next == x || !inside(next, low, high) {
-            break;
+        if !inside(next, low, high) {
+            let middle = halve(low, high);
+            if !inside(middle, low, high) {
+                break;
+            }
+            x = middle;
+            continue;
         }
         x = next;
+        // the error is squared by every step: what is left of this one is below the precision
+        let near = if last {
+            (poles[j] - x).abs()
+        } else {
+            (poles[j] - x).abs().min((poles[j + 1] - x).abs())
+        };
+        if step.abs() <= settled * near {
+            break;
+        }
     }
     x
 }
