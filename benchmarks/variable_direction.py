@@ -29,13 +29,12 @@ THRESHOLD = 1e-6
 TURNS = 5
 
 Array = np.ndarray
+Run = Callable[[Array, Array], Array]
 
 
 def prior(n: int) -> Array:
     """Distinct variances around 100."""
     return np.linspace(50.0, 150.0, n)
-
-Run = Callable[[Array, Array], Array]
 
 
 def eigh_step(phi_all: Array, y_all: Array) -> Array:

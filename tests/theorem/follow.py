@@ -11,6 +11,7 @@ from reference.agreement import skipped_update
 from reference.estimator import Estimator
 from reference.linalg import Matrix, symmetric_parameter, to_float
 from reference.signals import Record
+from reference.step import MeasureThenForget
 from reference.weighting import WEIGHTINGS
 
 from . import product
@@ -85,6 +86,8 @@ class Race:
             dtype=setting.dtype,
         )
         module = rules.load(setting.rule)
+        # a list of factors belongs to the rule; the rate then reports nothing of them
+        self.rated = module.RATED and not isinstance(case.get("forgetting_factor"), list)
         adaptive = rates.load(rate).Rate(**values) if module.RATED else None
         weighting = WEIGHTINGS[robust](**limits)
         self.dense = Estimator(n, module.Dense(n, **case), adaptive, weighting, targets, COVARIANCE)
@@ -110,19 +113,22 @@ class Race:
             if self.dense.skipped:
                 skipped_update(self.published, self.dense, r, k)
                 continue
-            self.gap.add("factor", run.forgetting_factor[i], float(self.dense.factor), 1.0)
+            if self.rated:
+                self.gap.add("factor", run.forgetting_factor[i], float(self.dense.factor), 1.0)
             self.published.update(*self.dense.whitened[-1])
 
     def check(self) -> None:
         """theta and P against the dense recursion, the published form and the minimiser."""
-        covariance = to_float(self.dense.covariance)
+        # after the data and before any forgetting of it, which E1 moves to the next sample
+        covariance = to_float(self.dense.inverted)
         spread = np.linalg.eigvalsh(covariance)
         self.gap.condition = max(self.gap.condition, spread[-1] / spread[0])
         theta = np.reshape(self.est.theta, (self.dense.theta.nrows(), -1))
         for reference in (self.dense.theta, self.published.theta, self.dense.cost.minimiser()):
             self.gap.add("theta", theta, to_float(reference))
-        for reference in (covariance, to_float(self.published.covariance)):
-            self.gap.add("covariance", self.est.covariance, reference)
+        self.gap.add("covariance", self.est.covariance, covariance)
+        if not isinstance(self.dense.rule, MeasureThenForget):
+            self.gap.add("covariance", self.est.covariance, to_float(self.published.covariance))
 
 
 def follow(setting: Setting, record: Record) -> Gap:

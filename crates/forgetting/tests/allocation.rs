@@ -1,9 +1,10 @@
 //! An update allocates nothing, whatever the rule.
 
 use forgetting::parameter::Defaults;
-use forgetting::rates::AnyRate;
+use forgetting::rates::{AnyRate, RATES};
 use forgetting::rules::{Rule, RULES};
-use forgetting::{Dynamic, Equal, Estimator, Noise, Prior};
+use forgetting::weighting::{AnyWeighting, WEIGHTINGS};
+use forgetting::{Dynamic, Equal, Estimator, Exponential, Noise, Prior};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
@@ -60,5 +61,28 @@ fn an_update_allocates_nothing() {
             }
         });
         assert_eq!(count, 0, "{}", about.name);
+    }
+}
+
+#[test]
+fn no_rate_and_no_weighting_allocates() {
+    let memory = Dynamic::<f64>::new(4, 2, 3).unwrap();
+    for rate in RATES {
+        let Ok(rate) = AnyRate::named(rate.name, &Defaults, memory) else {
+            continue; // one that is made from a function of the user's
+        };
+        for weighting in WEIGHTINGS {
+            let weighting = AnyWeighting::named(weighting.name, &Defaults, memory).unwrap();
+            let prior = Prior::scalar(memory, 10.0).unwrap();
+            let rate = rate.clone();
+            let mut estimator = Estimator::new(Exponential::new(), rate, weighting, prior);
+            let count = allocations(|| {
+                for k in 0..150 {
+                    let phi: [f64; 8] = std::array::from_fn(|i| ((k * 8 + i) as f64).sin());
+                    estimator.update(&phi, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]).unwrap();
+                }
+            });
+            assert_eq!(count, 0, "{:?}", estimator.rate());
+        }
     }
 }

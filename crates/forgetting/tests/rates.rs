@@ -9,7 +9,8 @@ use forgetting::{
     Dynamic, Error, Estimator, Fixed, Forgetting, Memory, Noise, Prior, Real, Subspace,
 };
 
-const RULES: [&str; 4] = ["none", "exponential", "exponential_resetting", "subspace"];
+/// Rules that use the factor of the rate, whatever it is.
+const RULES: [&str; 3] = ["exponential", "exponential_resetting", "subspace"];
 
 /// Values by name; a function where one is wanted, defaults for the rest.
 struct Given<'a, M: Memory> {

@@ -5,8 +5,9 @@ One row only. With |phi| > ``threshold``:
     F = (1 - lambda_k) R phi^T phi R / (phi R phi^T)                                   (63)
     Rbar = R - F (61),  Pbar = P + ((1 - lambda)/lambda) phi^T phi / (phi R phi^T)      (62)
 
-else F = 0. The data is added in both cases, as printed in (58), so that sustained regressors below
-the threshold are never forgotten. (62) is printed without its transposes.
+else the sample is skipped. As printed, (58) would still add its data, so that sustained regressors
+below the threshold were never forgotten and R grew without bound. (62) is printed without its
+transposes.
     published: R_{k+1} = Rbar + phi^T phi (58), P_{k+1} by (59), theta by (60)
 """
 
@@ -25,9 +26,10 @@ class Dense(Rule):
     def __init__(self, n: int, threshold: float) -> None:
         self.threshold = Real(threshold)
 
+    def skips(self, step: Step) -> bool:
+        return not length(step.phi) > self.threshold
+
     def forgetting(self, step: Step) -> Matrix:
-        if not length(step.phi) > self.threshold:
-            return Matrix(step.parameters, step.parameters)
         image = (step.phi * step.information).mid()
         energy = trace(image * transpose(step.phi))
         return ((1 - step.factor) * (transpose(image) * image) / energy).mid()
@@ -45,10 +47,11 @@ class Published(PublishedForm):
 
     def update(self, phi: Matrix, y: Matrix, factor: Real) -> None:
         r, p = self.information, self.covariance
-        if length(phi) > self.threshold:
-            energy = trace(phi * r * transpose(phi))
-            p = p + (1 - factor) / factor * (transpose(phi) * phi) / energy
-            r = r - (1 - factor) * (r * transpose(phi) * phi * r) / energy
+        if not length(phi) > self.threshold:
+            return
+        energy = trace(phi * r * transpose(phi))
+        p = p + (1 - factor) / factor * (transpose(phi) * phi) / energy
+        r = r - (1 - factor) * (r * transpose(phi) * phi * r) / energy
         self.information = symmetric(r + transpose(phi) * phi)
         self.covariance = measured(symmetric(p), phi)
         self.correct(phi, y)

@@ -236,7 +236,7 @@ impl<M: Memory> Rate<M> for FTest<M> {
 mod tests {
     extern crate std;
     use super::{inverse_root, product, quantile, FTest, Limits, Windows};
-    use crate::{Dynamic, Equal, Error, Estimator, Fixed, NoForgetting, Prior};
+    use crate::{Dynamic, Equal, Error, Estimator, Fixed, Exponential, Prior};
 
     #[test]
     fn for_one_error_it_is_the_ratio_of_two_variances() {
@@ -244,7 +244,7 @@ mod tests {
         let (windows, limits) = (Windows::new(2, 8).unwrap(), Limits::new(0.01, 1.0).unwrap());
         let rate = FTest::new(memory, 0.5, windows, 0.5, limits).unwrap();
         let prior = Prior::scalar(memory, 1.0).unwrap();
-        let mut estimator = Estimator::new(NoForgetting::new(), rate, Equal::new(), prior);
+        let mut estimator = Estimator::new(Exponential::new(), rate, Equal::new(), prior);
         let errors = [1.0, -2.0, 1.0, 0.5, 1.0, -1.0, 2.0, 3.0, -9.0, 1e12];
         for (k, &e) in errors.iter().enumerate() {
             let lambda = estimator.update(&[0.0], &[e]).unwrap().forgetting_factor;
@@ -283,7 +283,7 @@ mod tests {
         let rate = FTest::new(memory, 1.0, windows, 0.9, limits).unwrap();
         let (scale, threshold) = (rate.scale, rate.threshold);
         let prior = Prior::scalar(memory, 1.0).unwrap();
-        let mut estimator = Estimator::new(NoForgetting::new(), rate, Equal::new(), prior);
+        let mut estimator = Estimator::new(Exponential::new(), rate, Equal::new(), prior);
         let z = |k: usize| [libm::sin(k as f64 * 1.7), libm::cos((k * k) as f64) * (k as f64)];
         for k in 0..30 {
             let lambda = estimator.update(&[0.0, 0.0], &z(k)).unwrap().forgetting_factor;

@@ -117,7 +117,7 @@ impl<M: Memory> Rate<M> for Fortescue<M> {
 #[cfg(test)]
 mod tests {
     use super::{Fortescue, Limits};
-    use crate::{Dynamic, Equal, Estimator, Exponential, Fixed, NoForgetting, Noise, Prior};
+    use crate::{Dynamic, Equal, Estimator, Exponential, Fixed, Noise, Prior};
 
     #[test]
     fn one_row_is_the_published_form_one_sample_later() {
@@ -136,7 +136,7 @@ mod tests {
         let memory = Dynamic::<f64>::new(2, 2, 1).unwrap();
         let rate = Fortescue::new(100.0, 1.0, Limits::new(0.5, 1.0).unwrap()).unwrap();
         let prior = Prior::scalar(memory, 2.0).unwrap();
-        let mut estimator = Estimator::new(NoForgetting::new(), rate, Equal::new(), prior);
+        let mut estimator = Estimator::new(Exponential::new(), rate, Equal::new(), prior);
         let noise = [1.0, 0.0, 0.0, 4.0];
         estimator.update_weighted(&[1.0, 1.0, 2.0, 0.0], &[1.0, 4.0], Noise::Full(&noise)).unwrap();
         let next = estimator.update(&[1.0, 0.0, 0.0, 1.0], &[0.0, 0.0]).unwrap().forgetting_factor;
@@ -149,7 +149,7 @@ mod tests {
         let memory = Dynamic::<f64>::new(1, 2, 1).unwrap();
         let rate = Fortescue::new(10.0, 1.0, Limits::new(0.5, 1.0).unwrap()).unwrap();
         let prior = Prior::scalar(memory, 1e18).unwrap();
-        let mut estimator = Estimator::new(NoForgetting::new(), rate, Equal::new(), prior);
+        let mut estimator = Estimator::new(Exponential::new(), rate, Equal::new(), prior);
         estimator.update(&[1.0, 1.0], &[1.0, -1.0]).unwrap();
         // the difference of the two is certain: (1 - (-1))²/2 = 2
         let next = estimator.update(&[1.0, 1.0], &[0.0, 0.0]).unwrap().forgetting_factor;

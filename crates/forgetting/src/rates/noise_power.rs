@@ -161,21 +161,21 @@ impl<M: Memory> Rate<M> for NoisePower<M> {
 #[cfg(test)]
 mod tests {
     use super::{Limits, Memories, NoisePower};
-    use crate::{Equal, Estimator, Fixed, NoForgetting, Prior};
+    use crate::{Equal, Estimator, Fixed, Exponential, Prior};
 
-    /// n = 1, K_a = 1 and K_b = 2: A = e², B the mean of both; no forgetting.
+    /// n = 1, K_a = 1 and K_b = 2: A = e², B the mean of both; λ = 1 at first.
     #[test]
     fn is_the_published_quotient_by_hand() {
         let memories = Memories::new(1.0, 2.0).unwrap();
-        let rate = NoisePower::new(memories, 1.0, 1e-9, Limits::new(0.01, 0.99).unwrap()).unwrap();
+        let rate = NoisePower::new(memories, 1.0, 1e-9, Limits::new(0.01, 1.0).unwrap()).unwrap();
         let prior = Prior::scalar(Fixed::<f64, 1>::new(), 0.3).unwrap();
-        let mut estimator = Estimator::new(NoForgetting::new(), rate, Equal::new(), prior);
+        let mut estimator = Estimator::new(Exponential::new(), rate, Equal::new(), prior);
         let mut take = |e: f64| {
             let y = estimator.theta()[0] + e;
             estimator.update(&[1.0], &[y]).unwrap().forgetting_factor
         };
         // A = B = 1: not more error than noise
-        assert_eq!((take(1.0), take(2.0)), (0.99, 0.99));
+        assert_eq!((take(1.0), take(2.0)), (1.0, 1.0));
         // A = 4, B = 2.5, Q = (0.3/1.3)²
         let (fast, slow) = (2.0, 2.5f64.sqrt());
         let expected = 0.3 / 1.3 * slow / (1e-9 + fast - slow);

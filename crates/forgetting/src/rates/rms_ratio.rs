@@ -147,7 +147,7 @@ impl<M: Memory> Rate<M> for RmsRatio<M> {
 #[cfg(test)]
 mod tests {
     use super::{Limits, RmsRatio, Windows};
-    use crate::{Equal, Error, Estimator, Fixed, NoForgetting, Prior};
+    use crate::{Equal, Error, Estimator, Fixed, Exponential, Prior};
 
     #[test]
     fn compares_the_last_errors_with_those_before() {
@@ -155,7 +155,7 @@ mod tests {
         let (windows, limits) = (Windows::new(2, 4).unwrap(), Limits::new(0.1, 1.0).unwrap());
         let rate = RmsRatio::new(memory, 0.5, windows, limits).unwrap();
         let prior = Prior::scalar(memory, 1.0).unwrap();
-        let mut estimator = Estimator::new(NoForgetting::new(), rate, Equal::new(), prior);
+        let mut estimator = Estimator::new(Exponential::new(), rate, Equal::new(), prior);
         let mut take = |e: f64| estimator.update(&[0.0], &[e]).unwrap().forgetting_factor;
         // the window is not full
         assert_eq!([take(1.0), take(2.0), take(3.0)], [1.0; 3]);

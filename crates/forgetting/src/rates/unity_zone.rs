@@ -92,13 +92,13 @@ impl<M: Memory> Rate<M> for UnityZone<M> {
 #[cfg(test)]
 mod tests {
     use super::{Limits, UnityZone};
-    use crate::{Equal, Estimator, Fixed, NoForgetting, Prior};
+    use crate::{Equal, Estimator, Fixed, Exponential, Prior};
 
     #[test]
     fn halves_the_way_for_each_unit_beyond_the_zone() {
         let prior = Prior::scalar(Fixed::<f64, 1>::new(), 1.0).unwrap();
         let rate = UnityZone::new(1.0, Limits::new(0.5, 1.0).unwrap()).unwrap();
-        let mut estimator = Estimator::new(NoForgetting::new(), rate, Equal::new(), prior);
+        let mut estimator = Estimator::new(Exponential::new(), rate, Equal::new(), prior);
         for (squared, expected) in
             [(0.4999f64, 1.0), (0.5, 0.75), (1.49, 0.75), (3.0, 0.5625), (1e9, 0.5)]
         {

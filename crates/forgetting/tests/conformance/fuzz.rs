@@ -1,6 +1,6 @@
 //! Whole estimators on arbitrary input: never a panic, never an unsound P, never a half-done sample.
 
-use crate::subjects::{subjects, Subject};
+use crate::subjects::{subjects, update, Subject};
 use forgetting::{Error, Noise, Real};
 use proptest::prelude::*;
 
@@ -83,7 +83,7 @@ fn check<T: Real>(subject: &Subject, trial: &Trial) {
             _ => Noise::Full(&full),
         };
         let before = estimator.to_bytes().unwrap();
-        match estimator.update_weighted(&phi, &y, noise) {
+        match update(&mut estimator, &phi, &y, noise) {
             Ok(update) => {
                 assert!(update.leverage.is_finite(), "{subject:?}, sample {k}: {update:?}");
                 assert!(update.error.iter().all(|e| e.is_finite()), "{subject:?}");

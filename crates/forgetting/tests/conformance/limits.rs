@@ -1,7 +1,7 @@
 //! Limits at which every rule does the same.
 
 use crate::record::{record, Datum};
-use crate::subjects::{rules, subjects};
+use crate::subjects::{rules, subjects, update};
 use forgetting::saved::AnyEstimator;
 use forgetting::{Noise, Real};
 
@@ -28,9 +28,9 @@ fn factor_one_is_none<T: Real>(sizes: (usize, usize, usize)) {
         let mut one = subject.estimator::<T>(sizes, 1.0, 100.0).unwrap();
         let mut other = none.estimator::<T>(sizes, 1.0, 100.0).unwrap();
         for Datum { phi, y, gamma } in &data {
-            let rank = one.update_weighted(phi, y, Noise::Full(gamma)).unwrap().rank;
+            let rank = update(&mut one, phi, y, Noise::Full(gamma)).unwrap().rank;
             assert_eq!(rank, 0, "{subject:?}");
-            other.update_weighted(phi, y, Noise::Full(gamma)).unwrap();
+            update(&mut other, phi, y, Noise::Full(gamma)).unwrap();
             assert_eq!(numbers(&one), numbers(&other), "{subject:?}");
         }
     }
@@ -48,13 +48,14 @@ fn silence_is_harmless<T: Real>(sizes: (usize, usize, usize)) {
     for subject in subjects() {
         let Some(mut estimator) = subject.estimator::<T>(sizes, 0.99, 10.0) else { continue };
         for Datum { phi, y, .. } in &data[..40] {
-            estimator.update(phi, y).unwrap();
+            update(&mut estimator, phi, y, Noise::Unit).unwrap();
         }
         let before: Vec<T> = estimator.theta().to_vec();
         for k in 0..200 {
             let y: Vec<T> = (0..p * m).map(|i| T::from_f64(((i + k) % 5) as f64 - 2.0)).collect();
-            let update = estimator.update(&vec![T::ZERO; p * n], &y).unwrap();
-            assert_eq!(update.leverage.to_f64(), 0.0, "{subject:?}");
+            let silence = vec![T::ZERO; p * n];
+            let update = update(&mut estimator, &silence, &y, Noise::Unit).unwrap();
+            assert_eq!(update.leverage, 0.0, "{subject:?}");
             assert!(estimator.is_sound(), "{subject:?}");
             assert!(estimator.theta() == before, "{subject:?}");
         }
@@ -76,13 +77,13 @@ fn no_error_no_move<T: Real>(sizes: (usize, usize, usize)) {
     for subject in subjects() {
         let Some(mut estimator) = subject.estimator::<T>(sizes, 0.9, 10.0) else { continue };
         for Datum { phi, y, .. } in &data[..40] {
-            estimator.update(phi, y).unwrap();
+            update(&mut estimator, phi, y, Noise::Unit).unwrap();
         }
         let before: Vec<T> = estimator.theta().to_vec();
         for Datum { phi, gamma, .. } in &data {
             let mut y = vec![T::ZERO; p * m];
             estimator.predict(phi, &mut y).unwrap();
-            estimator.update_weighted(phi, &y, Noise::Full(gamma)).unwrap();
+            update(&mut estimator, phi, &y, Noise::Full(gamma)).unwrap();
             assert!(estimator.theta() == before, "{subject:?}");
         }
     }
@@ -120,11 +121,11 @@ fn refused_samples_change_nothing<T: Real>(sizes: (usize, usize, usize)) {
     for subject in subjects() {
         let Some(mut estimator) = subject.estimator::<T>(sizes, 0.9, 10.0) else { continue };
         for Datum { phi, y, .. } in &data {
-            estimator.update(phi, y).unwrap();
+            update(&mut estimator, phi, y, Noise::Unit).unwrap();
             let before = estimator.to_bytes().unwrap();
             for (phi, y, gamma) in &bad {
                 let noise = gamma.as_ref().map_or(Noise::Unit, |gamma| Noise::Full(gamma));
-                let refused = estimator.update_weighted(phi, y, noise).is_err();
+                let refused = update(&mut estimator, phi, y, noise).is_err();
                 assert!(refused, "{subject:?}: {phi:?}, {y:?}, {gamma:?}");
                 assert!(estimator.to_bytes().unwrap() == before, "{subject:?}");
             }

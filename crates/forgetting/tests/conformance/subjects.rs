@@ -6,7 +6,9 @@ use forgetting::rates::AnyRate;
 use forgetting::rules::{About, Rule, RULES};
 use forgetting::saved::AnyEstimator;
 use forgetting::weighting::AnyWeighting;
-use forgetting::{Dynamic, Error, Estimator, Memory, Prior, Real};
+use forgetting::{
+    Dynamic, Error, Estimator, Forgetting, Memory, Noise, Prior, Rate, Real, Skip, Weighting,
+};
 
 /// Values of parameters.
 #[derive(Clone, Debug, Default)]
@@ -113,6 +115,41 @@ impl Subject {
         let prior = Prior::scalar(memory, T::from_f64(variance)).unwrap();
         Some(Estimator::new(rule, rate, weighting.unwrap(), prior))
     }
+}
+
+/// What is kept of an update.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    pub error: Vec<f64>,
+    pub leverage: f64,
+    pub forgetting_factor: f64,
+    pub rank: usize,
+    pub skipped: Option<Skip>,
+    pub windup: bool,
+}
+
+/// `Estimator::update_weighted`, not inlined: all rules are in it, and compiled once this way.
+#[inline(never)]
+pub fn update<F, R, W, M>(
+    estimator: &mut Estimator<F, R, W, M>,
+    phi: &[M::Real],
+    y: &[M::Real],
+    noise: Noise<'_, M::Real>,
+) -> Result<Outcome, Error>
+where
+    F: Forgetting<M>,
+    R: Rate<M>,
+    W: Weighting<M>,
+    M: Memory,
+{
+    estimator.update_weighted(phi, y, noise).map(|update| Outcome {
+        error: update.error.iter().map(|x| x.to_f64()).collect(),
+        leverage: update.leverage.to_f64(),
+        forgetting_factor: update.forgetting_factor.to_f64(),
+        rank: update.rank,
+        skipped: update.skipped,
+        windup: update.windup,
+    })
 }
 
 /// Whether a value can be given by name and number: a function cannot.

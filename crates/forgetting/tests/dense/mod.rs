@@ -77,6 +77,17 @@ impl Dense {
         b
     }
 
+    /// L, lower triangular, with L Lᵀ = self.
+    pub fn cholesky(&self) -> Self {
+        let n = self.rows;
+        let mut l = Self::zero(n, n);
+        for (i, j) in (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))) {
+            let rest = self.at(i, j) - (0..j).map(|k| l.at(i, k) * l.at(j, k)).sum::<f64>();
+            l.elements[i * n + j] = if i == j { rest.sqrt() } else { rest / l.at(j, j) };
+        }
+        l
+    }
+
     /// The eigenvalues of a symmetric matrix in ascending order, by Jacobi's rotations.
     pub fn eigenvalues(&self) -> Vec<f64> {
         let (n, mut a) = (self.rows, self.clone());

@@ -2,8 +2,8 @@
 
 use crate::dense::Dense;
 use crate::inputs::Input;
-use crate::run::{Passed, Setting};
-use crate::settings::{growing, holding, improper, usual, vanishing};
+use crate::run::{Passed, Setting, N};
+use crate::settings::{growing, improper, proper, usual, vanishing};
 use forgetting::rules::{About, Claim, RULES};
 
 /// Rounding of F's smallest eigenvalue, relative to R: eps times the condition of P.
@@ -20,14 +20,15 @@ fn extremes(matrix: &Dense) -> (f64, f64) {
     (values[0], values[values.len() - 1])
 }
 
-/// The smallest eigenvalue of F = R − R̄ over a run, in units of R and of its rounding.
+/// The smallest eigenvalue of F = R − R̄ relative to R over a run, and the same in units of its
+/// rounding: that of Lᵀ F L = I − Lᵀ R̄ L, P = L Lᵀ.
 fn least_forgotten(name: &str, setting: &Setting, samples: usize) -> (f64, f64) {
     let (mut least, mut rounding) = (f64::INFINITY, f64::INFINITY);
     setting.run(name, samples, |Passed { before, forgotten, .. }| {
         let (small, large) = extremes(&before);
-        let (r, rest) = (before.inverse(), forgotten.inverse());
-        let scale = r.size().max(rest.size());
-        let f = extremes(&(r - rest)).0 / scale;
+        let l = before.cholesky();
+        let left = l.transpose() * forgotten.inverse() * l;
+        let f = extremes(&(Dense::identity(N) - left)).0;
         least = least.min(f);
         rounding = rounding.min(f / (f64::EPSILON * large / small));
         large > 1e10 * small
@@ -47,13 +48,13 @@ fn runs(about: &About) -> impl Iterator<Item = Setting> + '_ {
         Input::Uneven(1e-2),
     ];
     let fits = |input: &Input| about.largest_rows.is_none_or(|largest| input.rows() <= largest);
-    all.into_iter().filter(fits).map(|input| holding(about.name, usual(input)))
+    all.into_iter().filter(fits).map(usual)
 }
 
 #[test]
 fn proper_rules_only_take_information() {
     for about in RULES.iter().filter(|about| about.proper != Claim::No) {
-        for setting in runs(about) {
+        for setting in runs(about).map(|setting| proper(about.name, setting)) {
             let (_, rounding) = least_forgotten(about.name, &setting, 400);
             assert!(rounding > -ROUNDING, "{}: {rounding} {setting:?}", about.name);
         }
@@ -83,7 +84,7 @@ fn growth(name: &str, setting: &Setting, samples: usize) -> f64 {
 fn without_excitation_what_is_claimed_to_be_bounded_is() {
     for about in RULES.iter().filter(|about| about.bounded_above != Claim::No) {
         for input in [Input::Silent, Input::Fixed] {
-            let largest = growth(about.name, &holding(about.name, usual(input)), 4000);
+            let largest = growth(about.name, &usual(input), 4000);
             assert!(largest < GROWTH, "{}: {largest} {input:?}", about.name);
         }
     }
@@ -101,8 +102,8 @@ fn without_excitation_the_others_wind_up() {
 /// The smallest eigenvalue of P after `samples` over that after a tenth of them.
 fn shrinkage(name: &str, setting: &Setting, samples: usize) -> f64 {
     let (mut early, mut late) = (f64::INFINITY, f64::INFINITY);
-    setting.run(name, samples, |Passed { k, after, .. }| {
-        let smallest = extremes(&after).0;
+    setting.run(name, samples, |Passed { k, information, .. }| {
+        let smallest = 1.0 / extremes(&information).1;
         if k < samples / 10 {
             early = early.min(smallest);
         } else {

@@ -20,8 +20,10 @@ pub enum Input {
     Fading(f64),
     /// two rows, the second of this length and orthogonal to the first
     Uneven(f64),
-    /// once (1, 1e-3, 0), then ten times (0, 1e-4, 0)
+    /// once (1, ±1e-3, 0), then ten times (0, 1e-4, 0)
     Alternating,
+    /// one component at a time
+    Axes,
     /// all components equal, but for one part in a thousand
     Correlated,
 }
@@ -54,8 +56,10 @@ impl Input {
                 vec![0.6 * length, 0.8 * length, 0.0]
             }
             Self::Uneven(second) => vec![1.0, 0.0, 0.0, 0.0, second, 0.0],
-            Self::Alternating if k.is_multiple_of(11) => vec![1.0, 1e-3, 0.0],
+            Self::Alternating if k % 22 == 0 => vec![1.0, 1e-3, 0.0],
+            Self::Alternating if k % 22 == 11 => vec![1.0, -1e-3, 0.0],
             Self::Alternating => vec![0.0, 1e-4, 0.0],
+            Self::Axes => (0..N).map(|i| if i == k % N { noise.next() } else { 0.0 }).collect(),
             Self::Correlated => {
                 let common = any(1.0)[0];
                 any(1e-3).iter().map(|x| common + x).collect()

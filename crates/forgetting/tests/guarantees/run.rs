@@ -34,6 +34,8 @@ pub struct Passed {
     pub forgotten: Dense,
     /// P_{k+1}
     pub after: Dense,
+    /// R_{k+1}, which is exact where P is too ill-conditioned to be inverted
+    pub information: Dense,
 }
 
 impl Setting {
@@ -44,6 +46,11 @@ impl Setting {
 
     /// Shows each step to `look` until it says that it has seen enough.
     pub fn run(&self, name: &str, samples: usize, mut look: impl FnMut(Passed) -> bool) {
+        self.run_all(name, samples, &mut look);
+    }
+
+    /// One copy of all rules, whatever looks at them.
+    fn run_all(&self, name: &str, samples: usize, look: &mut dyn FnMut(Passed) -> bool) {
         let memory = Dynamic::<f64>::new(N, self.input.rows(), 1).unwrap();
         let rule = self.subject(name).rule(memory).unwrap();
         let mut state = rule.start(memory);
@@ -70,7 +77,8 @@ impl Setting {
                     factor.add_information(sample.row(i), &mut gain);
                 }
             }
-            if look(Passed { k, before, forgotten, after: dense(&factor) }) {
+            let (after, information) = (dense(&factor), information(&factor));
+            if look(Passed { k, before, forgotten, after, information }) {
                 break;
             }
         }
@@ -81,4 +89,10 @@ fn dense(factor: &Factor<Dynamic<f64>>) -> Dense {
     let mut p = [0.0; N * N];
     factor.reconstruct(&mut p);
     Dense::new(N, &p)
+}
+
+fn information(factor: &Factor<Dynamic<f64>>) -> Dense {
+    let (mut r, mut work) = ([0.0; N * N], [0.0; N * N]);
+    factor.reconstruct_information(&mut r, &mut work);
+    Dense::new(N, &r)
 }

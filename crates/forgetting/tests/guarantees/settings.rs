@@ -13,15 +13,13 @@ fn with(name: &'static str, item: Item, setting: Setting) -> Setting {
     Setting { given: Given::one(name, item), ..setting }
 }
 
-/// Makes the condition of a rule's claim hold, where it is not one on λ or on the regressors.
-pub fn holding(name: &str, setting: Setting) -> Setting {
+/// Makes the condition hold under which a rule is proper.
+pub fn proper(name: &str, setting: Setting) -> Setting {
     match name {
-        // R₀ = 0.1 I, above the default information 0.01 I
-        "exponential_resetting" | "matrix_forgetting" => setting,
-        // P₀ below P_∞ = 100 I; without a rule between the resets P only shrinks
-        "covariance_resetting" => setting,
-        // (1 − λ₁)(1 − λ₂)… is large: hardly anything is kept that could be correlated
-        "multiple" => with("factors", Item::Real(0.05), setting),
+        // regressors that are never correlated
+        "multiple" => Setting { input: Input::Axes, ..setting },
+        // as they are: R₀ = 0.1 I is above the information, P₀ below P_∞, and without a rule
+        // between the resets P only shrinks
         _ => setting,
     }
 }
@@ -42,8 +40,11 @@ pub fn improper(name: &str) -> Option<Setting> {
             ..usual(Input::Silent)
         },
         "multiple" => usual(Input::Correlated),
-        // the trace is held by taking from the directions without data
-        "constant_trace" => usual(Input::Fixed),
+        // the trace is held by taking from the directions with the largest variance
+        "constant_trace" => Setting {
+            given: Given(vec![("level", Item::Real(1.0)), ("floor", Item::Real(0.2))]),
+            ..usual(Input::Fixed)
+        },
         _ => return None,
     })
 }
@@ -54,7 +55,9 @@ pub fn growing(name: &str) -> Option<Setting> {
     let zero_information =
         with("information", Item::Real(0.0), Setting { factor: 0.99, ..usual(Input::Silent) });
     Some(match name {
-        "exponential" | "component" | "multiple" | "variable_direction" => usual(Input::Fixed),
+        "exponential" | "component" => usual(Input::Fixed),
+        "multiple" => usual(Input::Silent),
+        "variable_direction" => with("threshold", Item::Real(1e-9), usual(Input::Fixed)),
         "exponential_resetting" | "cyclic_resetting" => zero_information,
         "random_walk" => with("process_noise", Item::Real(1e4), usual(Input::Silent)),
         "data_dependent" => Setting { error: 1e6, ..usual(Input::Silent) },
@@ -92,6 +95,7 @@ pub fn vanishing(name: &str) -> Option<Setting> {
         "oblique_projection" | "variable_direction" => {
             with("threshold", Item::Real(2.0), usual(Input::Exciting(1)))
         }
+        "efra" => with("increase", Item::Real(0.0), never(Input::Exciting(1))),
         "restricted" => usual(Input::Alternating),
         "random_walk" => with("process_noise", Item::Real(0.0), usual(Input::Exciting(1))),
         // never reset, and `none` between
@@ -103,7 +107,7 @@ pub fn vanishing(name: &str) -> Option<Setting> {
             ..usual(Input::Exciting(1))
         },
         // the condition is that regressors are bounded: these are as large as can be
-        "data_dependent" | "constant_trace" | "efra" => usual(Input::Scaled(1e6)),
+        "data_dependent" | "constant_trace" => usual(Input::Scaled(1e6)),
         _ => return None,
     })
 }
