@@ -248,3 +248,36 @@ impl<M: Memory> State<M::Real> for Blocks<M> {
         visitor.whole(&mut self.started);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{covariance, forget, memory, Dense};
+
+    #[test]
+    fn keeps_the_discounted_blocks_and_nothing_between_them() {
+        let (p, phi) = (covariance(), Dense::new(1, &[0.8, -0.2, 1.1]));
+        let memory = memory(&phi, 1);
+        let rule = Multiple::new(&[0.9, 0.5], &[2, 1], memory).unwrap();
+        let found = forget(&rule, &mut rule.start(memory), &p, &phi, 1.0);
+        let r = p.inverse();
+        let kept = |i: usize, j: usize| match (i < 2, j < 2) {
+            (true, true) => 0.9 * r.at(i, j),
+            (false, false) => 0.5 * r.at(i, j),
+            _ => 0.0,
+        };
+        let kept: alloc::vec::Vec<f64> = (0..9).map(|k| kept(k / 3, k % 3)).collect();
+        assert!(found.covariance.inverse().distance(&Dense::new(3, &kept)) < 1e-14);
+    }
+
+    #[test]
+    fn blocks_must_add_up() {
+        let memory = crate::Dynamic::<f64>::new(3, 1, 1).unwrap();
+        for blocks in [&[1, 1][..], &[2, 2], &[0, 3], &[4]] {
+            let factors = [0.9; 2];
+            assert!(Multiple::new(&factors[..blocks.len()], blocks, memory).is_err());
+        }
+        assert!(Multiple::new(&[0.9, 1.1], &[1, 2], memory).is_err());
+        assert!(Multiple::new(&[0.9], &[1, 2], memory).is_err());
+    }
+}
