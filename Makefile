@@ -9,7 +9,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check -q
-# records inside wheels: their own dependencies are not needed to read them
+# records inside wheels; their own dependencies clash with ours and are not needed to read them
 RECORDS := pvanalytics==0.2.2 sweat==0.25.0
 
 .PHONY: demo test lint rust python build bench bench-full docs stubs clean
@@ -28,7 +28,7 @@ lint: build
 	$(BIN)/mypy
 
 rust:
-	cargo test --package forgetting --quiet
+	cargo test --package forgetting --package forgetting-cpu --quiet
 
 python: build
 	$(BIN)/pytest

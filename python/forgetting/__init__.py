@@ -10,10 +10,11 @@ only what it should.
 8.0
 """
 
-from . import choices
+from . import registry
 from ._core import (
     RLS,
     SKIPPED,
+    Evidence,
     InvalidInput,
     NumericalRange,
     Run,
@@ -23,17 +24,17 @@ from ._core import (
     rules,
     weightings,
 )
-from .choices import Rate, Rule, Weighting, rule
+from .choices import Rate, Rule, Weighting, rate, rule, weighting
 from .health import Health
 from .meter import ExcitationMeter
 from .models import ARX
-
-globals().update(choices.CLASSES)
+from .registry import *  # noqa: F403 (the classes of the registries)
 
 __all__ = [
     "ARX",
     "RLS",
     "SKIPPED",
+    "Evidence",
     "ExcitationMeter",
     "Health",
     "InvalidInput",
@@ -44,9 +45,11 @@ __all__ = [
     "Update",
     "Weighting",
     "__version__",
+    "rate",
     "rates",
     "rule",
     "rules",
+    "weighting",
     "weightings",
-    *choices.CLASSES,
 ]
+__all__ += registry.__all__

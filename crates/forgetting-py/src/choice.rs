@@ -2,12 +2,16 @@
 //! `name` and `parameters`.
 
 use crate::arrays::with_slice;
+use crate::callable;
 use crate::errors::{invalid, raise};
+use crate::function::Callable;
+use forgetting::function::MatrixFunction;
 use forgetting::parameter::{Parameter, Value, Values};
 use forgetting::rules::RULES;
 use forgetting::Error;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat, PyInt, PyString};
+use std::sync::Arc;
 
 /// A parameter's value, taken from Python.
 pub enum Given {
@@ -15,6 +19,7 @@ pub enum Given {
     Word(String),
     Matrix { rows: usize, columns: usize, elements: Box<dyn Fn(usize) -> f64 + Send + Sync> },
     Choice(Choice),
+    Function(Arc<dyn MatrixFunction>),
 }
 
 /// A name and its parameters.
@@ -54,6 +59,14 @@ impl Choice {
             }
         }
         Ok(Self { name, parameters: given })
+    }
+
+    /// The callable given for the parameter `name`, if one was.
+    pub fn callable<'py>(&self, py: Python<'py>, name: &str) -> Option<Bound<'py, PyAny>> {
+        self.parameters.iter().find(|(known, _)| known == name).and_then(|(_, value)| match value {
+            Given::Function(function) => Some(callable::python(py, function)),
+            _ => None,
+        })
     }
 
     /// Refuses a parameter that is not among `known`, then makes what is chosen.
@@ -98,6 +111,7 @@ impl Values for Choice {
             Given::Matrix { rows, columns, elements } => {
                 Value::Matrix { rows: *rows, columns: *columns, elements }
             }
+            Given::Function(function) => Value::Function(function),
             Given::Choice(inner) => Value::Choice { name: &inner.name, values: inner },
         })
     }
@@ -112,6 +126,9 @@ fn read_value(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Given> {
     }
     if value.hasattr("name")? && value.hasattr("parameters")? {
         return Choice::read(name, value).map(Given::Choice);
+    }
+    if value.is_callable() {
+        return Ok(Given::Function(Arc::new(Callable::new(name, value))));
     }
     let shape = shape_of(name, value)?;
     let elements = with_slice::<f64, _>(name, value, |elements| Ok(elements.to_vec()))?;
@@ -148,7 +165,7 @@ pub fn write_value<'py>(py: Python<'py>, value: Value<'_>) -> PyResult<Bound<'py
             // a list compares and prints as it was given
             crate::arrays::shaped(py, elements, shape)?.call_method0("tolist")
         }
-        Value::Function(_) => Ok(py.None().into_bound(py)),
+        Value::Function(function) => Ok(callable::python(py, function)),
         Value::Choice { name, values } => {
             write_choice(py, name, |each| values.each(each)).map(Bound::into_any)
         }

@@ -1,6 +1,7 @@
 //! An estimator from the arguments of `RLS`.
 
 use crate::arrays::{with_slice, Array, Number};
+use crate::callable;
 use crate::choice::{shape_of, Choice};
 use crate::errors::{invalid, raise};
 use forgetting::parameter::Parameter;
@@ -75,10 +76,20 @@ fn read_rule<T: Number>(
             Err(_) => Choice::read("forgetting_factor", &factor)?,
         },
     };
+    Ok((rule, make_rate(&rate, object, memory)?))
+}
+
+fn make_rate<T: Number>(
+    rate: &Choice,
+    rule: Option<Array<'_, '_>>,
+    memory: Dynamic<T>,
+) -> PyResult<AnyRate<Dynamic<T>>> {
     let known: Option<&[Parameter]> =
         RATES.iter().find(|about| about.name == rate.name).map(|about| about.parameters);
-    let rate = rate.make("rate", known, |name, values| AnyRate::named(name, values, memory))?;
-    Ok((rule, rate))
+    if let Some(asked) = rule.and_then(|rule| rate.callable(rule.py(), "function")) {
+        return Ok(AnyRate::Function(callable::rate(&asked)));
+    }
+    rate.make("rate", known, |name, values| AnyRate::named(name, values, memory))
 }
 
 fn constant(forgetting_factor: f64) -> Choice {

@@ -3,6 +3,7 @@
 use forgetting::Error;
 use pyo3::exceptions::{PyArithmeticError, PyValueError};
 use pyo3::{create_exception, PyErr};
+use std::cell::RefCell;
 
 create_exception!(
     forgetting,
@@ -19,6 +20,17 @@ create_exception!(
      The estimator is as it was before the sample."
 );
 
+thread_local! {
+    /// The exception of a callable, while the crate hands its [`Error::Function`] back.
+    static EXCEPTION: RefCell<Option<PyErr>> = const { RefCell::new(None) };
+}
+
+/// The error that stands for an exception within the crate.
+pub fn keep_exception(exception: PyErr) -> Error {
+    EXCEPTION.set(Some(exception));
+    Error::Function { parameter: "a function of yours" }
+}
+
 /// The exception for `error`.
 pub fn raise(error: Error) -> PyErr {
     raise_at(error, None)
@@ -31,6 +43,7 @@ pub fn raise_at(error: Error, sample: Option<usize>) -> PyErr {
         None => error.to_string(),
     };
     match error {
+        Error::Function { .. } => EXCEPTION.take().unwrap_or_else(|| InvalidInput::new_err(text)),
         Error::Range { .. } => NumericalRange::new_err(text),
         _ => InvalidInput::new_err(text),
     }

@@ -2,9 +2,11 @@
 //! and does nothing else.
 
 mod arrays;
+mod callable;
 mod choice;
 mod configure;
 mod errors;
+mod function;
 mod outputs;
 mod record;
 mod registry;
@@ -20,6 +22,7 @@ use pyo3::prelude::*;
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<rls::Rls>()?;
     module.add_class::<update::Update>()?;
+    module.add_class::<callable::Evidence>()?;
     module.add_class::<window::InformationWindow>()?;
     module.add_class::<outputs::Run>()?;
     module.add("InvalidInput", module.py().get_type::<errors::InvalidInput>())?;

@@ -1,12 +1,14 @@
 //! A whole record in one call, without Python in the loop.
 
 use crate::arrays::{contiguous, Array, Number};
+use crate::callable::calls_python;
 use crate::errors::{invalid, raise_at};
 use crate::outputs::{Outputs, Run, Sizes};
 use forgetting::saved::AnyEstimator;
 use forgetting::{Error, Memory, Noise};
 use numpy::PyArrayMethods;
 use pyo3::prelude::*;
+use std::borrow::Cow;
 
 /// Γ of a record: the same for all samples, or one a sample.
 enum RecordNoise<'a, T> {
@@ -50,13 +52,27 @@ pub fn run<T: Number>(
     check_shape("y", y.as_array().shape(), samples, &[p, m])?;
     let sizes = Sizes { samples, parameters: n, rows: p, targets: m };
     let mut outputs = Outputs::<T>::named(outputs, sizes)?;
-    let (phi, y) = (phi.as_slice()?, y.as_slice()?);
+    let copy = calls_python(estimator);
+    let (phi, y) = (slice(T::wrap(phi.as_slice()?), copy), slice(T::wrap(y.as_slice()?), copy));
+    let elements = match &gamma {
+        None => Cow::default(),
+        Some(gamma) => slice(T::wrap(gamma.as_slice()?), copy),
+    };
     let noise = match &gamma {
         None => RecordNoise::Unit,
-        Some(gamma) => read_noise(gamma.as_array().shape(), gamma.as_slice()?, samples, p)?,
+        Some(gamma) => read_noise(gamma.as_array().shape(), &elements, samples, p)?,
     };
-    py.detach(|| update_all(estimator, phi, y, &noise, skip, &mut outputs))?;
+    py.detach(|| update_all(estimator, &phi, &y, &noise, skip, &mut outputs))?;
     outputs.finish(py, sizes)
+}
+
+/// The slice, or a copy of it.
+fn slice<T: Number>(values: &[T], copy: bool) -> Cow<'_, [T]> {
+    if copy {
+        Cow::Owned(values.to_vec())
+    } else {
+        Cow::Borrowed(values)
+    }
 }
 
 /// Refuses a shape other than `samples` times `sample`, dimensions of 1 left out or not.

@@ -26,7 +26,7 @@ fn parameter<'py>(py: Python<'py>, parameter: &Parameter) -> PyResult<Bound<'py,
         Kind::Matrix => ("matrix", parameter.range.words.to_owned()),
         Kind::List => ("list", parameter.range.words.to_owned()),
         Kind::Rule => ("rule", "any rule".to_owned()),
-        Kind::Function => ("function", parameter.range.words.to_owned()),
+        Kind::Function => ("function", "a function".to_owned()),
     };
     entry.set_item("name", parameter.name)?;
     entry.set_item("about", parameter.about)?;

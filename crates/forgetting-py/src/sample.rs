@@ -1,6 +1,7 @@
 //! One sample in one call.
 
-use crate::arrays::{with_slice, Array, Number};
+use crate::arrays::{owned, with_slice, Array, Number};
+use crate::callable::calls_python;
 use crate::errors::raise;
 use crate::update::Update;
 use forgetting::saved::AnyEstimator;
@@ -17,6 +18,13 @@ pub fn update<T: Number>(
 ) -> PyResult<Update> {
     let memory = estimator.prior().memory();
     let (rows, targets) = (memory.rows(), memory.targets());
+    if calls_python(estimator) {
+        let (phi, y) = (owned("phi", phi)?, owned("y", y)?);
+        let gamma = gamma.map(|gamma| owned("gamma", gamma)).transpose()?;
+        let noise = gamma.as_deref().map_or(Noise::Unit, noise);
+        let update = estimator.update_weighted(&phi, &y, noise).map_err(raise)?;
+        return Ok(Update::new(&update, rows, targets));
+    }
     let mut update = |noise: Noise<'_, T>| {
         with_slice("phi", phi, |phi: &[T]| {
             with_slice("y", y, |y: &[T]| {
@@ -27,9 +35,14 @@ pub fn update<T: Number>(
     };
     match gamma {
         None => update(Noise::Unit),
-        Some(gamma) => with_slice("gamma", gamma, |gamma| match gamma {
-            [scalar] => update(Noise::Scalar(*scalar)),
-            full => update(Noise::Full(full)),
-        }),
+        Some(gamma) => with_slice("gamma", gamma, |gamma| update(noise(gamma))),
+    }
+}
+
+#[inline]
+fn noise<T: Number>(gamma: &[T]) -> Noise<'_, T> {
+    match gamma {
+        [scalar] => Noise::Scalar(*scalar),
+        full => Noise::Full(full),
     }
 }

@@ -25,13 +25,13 @@ pub const THRESHOLD: Parameter = Parameter::real(
     1e-3,
     Range::POSITIVE,
     "P is reset when its trace or smallest eigenvalue is below (1e-3 if not given), or when the \
-     sum of `change` is above (30 if not given)",
+     sum of `change` is above (20 if not given)",
 )
 .optional();
 /// d
 pub const DRIFT: Parameter = Parameter::real(
     "drift",
-    0.5,
+    1.0,
     Range::NON_NEGATIVE,
     "excess of the normalised squared innovation that is no change, for the criterion `change`",
 );
@@ -80,7 +80,7 @@ impl<T: Real> Criterion<T> {
             0 => Self::Period(period as u64),
             1 => Self::Trace(below),
             2 => Self::SmallestEigenvalue(below),
-            _ => Self::Change { threshold: threshold(30.0)?, drift, memory: memory as u64 },
+            _ => Self::Change { threshold: threshold(20.0)?, drift, memory: memory as u64 },
         })
     }
 
@@ -165,7 +165,7 @@ impl<M: Memory> Watch<M> {
         seen.samples += 1;
         seen.met = match *criterion {
             Criterion::Period(period) => {
-                self.seen.samples > 0 && self.seen.samples % period.max(1) == 0
+                self.seen.samples > 0 && self.seen.samples.is_multiple_of(period.max(1))
             }
             Criterion::Trace(threshold) => factor.trace() < threshold,
             Criterion::SmallestEigenvalue(threshold) => self.is_below(factor, threshold),

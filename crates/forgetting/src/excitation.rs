@@ -75,7 +75,7 @@ impl<T: Real> Excitation<T> {
         accumulate(&mut self.fresh, phi, T::ONE, self.parameters);
         self.seen += 1;
         self.largest = self.largest.max(self.trace());
-        if self.seen % self.window as u64 == 0 {
+        if self.seen.is_multiple_of(self.window as u64) {
             self.sum.copy_from_slice(&self.fresh);
             self.fresh.fill(T::ZERO);
             self.largest = self.trace();
@@ -137,7 +137,9 @@ mod tests {
     use alloc::vec::Vec;
 
     fn sample(k: usize) -> Vec<f64> {
-        (0..6).map(|i| ((k * 6 + i) as f64).sin() * if k % 50 == 0 { 1e6 } else { 1.0 }).collect()
+        (0..6)
+            .map(|i| ((k * 6 + i) as f64).sin() * if k.is_multiple_of(50) { 1e6 } else { 1.0 })
+            .collect()
     }
 
     #[test]

@@ -27,6 +27,8 @@ mod evidence;
 #[cfg(feature = "alloc")]
 mod excitation;
 pub mod factor;
+#[cfg(feature = "alloc")]
+pub mod function;
 mod intake;
 mod measure;
 mod memory;

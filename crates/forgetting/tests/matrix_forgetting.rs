@@ -2,9 +2,9 @@
 
 mod dense_forms;
 
-use dense_forms::{estimator, records, result, update, worst, Dense, Published};
-use forgetting::rules::{ExponentialResetting, MatrixForgetting};
-use forgetting::{Dynamic, Prior, Root};
+use dense_forms::{records, worst, Dense, Published};
+use forgetting::rules::MatrixForgetting;
+use forgetting::Dynamic;
 
 const LAMBDA: f64 = 0.9;
 const ALPHA: f64 = 0.2;

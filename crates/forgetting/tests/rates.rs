@@ -5,7 +5,9 @@ use forgetting::rates::{AnyRate, Evidence, Function, Rate, RATES};
 use forgetting::rules::Rule;
 use forgetting::saved::AnyEstimator;
 use forgetting::weighting::{AnyWeighting, Weighting, WEIGHTINGS};
-use forgetting::{Dynamic, Error, Estimator, Fixed, Memory, Noise, Prior, Real};
+use forgetting::{
+    Dynamic, Error, Estimator, Fixed, Forgetting, Memory, Noise, Prior, Real, Subspace,
+};
 
 const RULES: [&str; 4] = ["none", "exponential", "exponential_resetting", "subspace"];
 
@@ -33,16 +35,22 @@ impl<M: Memory> Values for Given<'_, M> {
     }
 }
 
-type Any<M> = Estimator<Rule<M>, AnyRate<M>, AnyWeighting<M>, M>;
+type With<F, M> = Estimator<F, AnyRate<M>, AnyWeighting<M>, M>;
 
-/// An estimator with these names, values for the rate and defaults elsewhere.
-fn make<M: Memory>(
+/// An estimator with a rule, a rate and a weighting of these names.
+fn make<T: Real>(memory: Dynamic<T>, [rule, rate, weighting]: [&str; 3]) -> AnyEstimator<T> {
+    with(Rule::named(rule, &Defaults, memory).unwrap(), memory, [rate, weighting], &[])
+}
+
+/// An estimator with this rule, values for the rate and defaults elsewhere.
+fn with<F: Forgetting<M>, M: Memory>(
+    rule: F,
     memory: M,
-    [rule, rate, weighting]: [&str; 3],
+    [rate, weighting]: [&str; 2],
     values: &[(&str, Value<'_>)],
-) -> Any<M> {
+) -> With<F, M> {
     Estimator::new(
-        Rule::named(rule, &Defaults, memory).unwrap(),
+        rule,
         AnyRate::named(rate, &Given::<M>::new(values), memory).unwrap(),
         AnyWeighting::named(weighting, &Defaults, memory).unwrap(),
         Prior::scalar(memory, M::Real::from_f64(100.0)).unwrap(),
@@ -82,17 +90,31 @@ fn sample<M: Memory>(memory: M, k: usize) -> (Vec<M::Real>, Vec<M::Real>) {
     (phi.into_iter().map(M::Real::from_f64).collect(), y)
 }
 
+/// Takes a sample; returns its λ. Not to be inlined: an update is large.
+#[inline(never)]
+fn take<F: Forgetting<M>, M: Memory>(
+    estimator: &mut With<F, M>,
+    phi: &[M::Real],
+    y: &[M::Real],
+    noise: Noise<'_, M::Real>,
+) -> Result<M::Real, Error> {
+    estimator.update_weighted(phi, y, noise).map(|update| update.forgetting_factor)
+}
+
 /// λ of samples `from..to`, as bits.
-fn factors<M: Memory>(estimator: &mut Any<M>, from: usize, to: usize) -> Vec<u64> {
+fn factors<F, M>(estimator: &mut With<F, M>, from: usize, to: usize) -> Vec<u64>
+where
+    F: Forgetting<M>,
+    M: Memory,
+{
     let memory = estimator.prior().memory();
-    let take = |k| {
+    let bits = |k| {
         let (phi, y) = sample(memory, k);
-        let update = estimator.update(&phi, &y).unwrap();
-        let lambda = update.forgetting_factor.to_f64().to_bits();
+        let lambda = take(estimator, &phi, &y, Noise::Unit).unwrap();
         assert!(estimator.is_sound());
-        lambda
+        lambda.to_f64().to_bits()
     };
-    (from..to).map(take).collect()
+    (from..to).map(bits).collect()
 }
 
 /// The number that the rate has for this parameter.
@@ -170,7 +192,8 @@ fn stays_within_its_limits<T: Real>(rate: &str, sizes: (usize, usize, usize)) {
     let narrow = [("smallest", Value::Real(0.95)), ("largest", Value::Real(0.98))];
     for values in [&[][..], &narrow] {
         for rule in RULES {
-            let mut estimator = make(memory, [rule, rate, "equal"], values);
+            let rule_of_name = Rule::named(rule, &Defaults, memory).unwrap();
+            let mut estimator = with(rule_of_name, memory, [rate, "equal"], values);
             let limit = |name, default| number(estimator.rate(), name).unwrap_or(default);
             let (smallest, largest) = (limit("smallest", f64::MIN_POSITIVE), limit("largest", 1.0));
             let found = factors(&mut estimator, 0, 400);
@@ -201,7 +224,7 @@ fn no_factor_depends_on_the_units_of_the_output() {
         for (n, p, m) in [(3, 1, 1), (2, 2, 2)] {
             let memory = Dynamic::<f64>::new(n, p, m).unwrap();
             let names = ["exponential", about.name, "huber"];
-            let mut plain = make(memory, names, &[]);
+            let mut plain = make(memory, names);
             let mut scaled = Estimator::new(
                 plain.rule().clone(),
                 plain.rate().clone(),
@@ -210,10 +233,10 @@ fn no_factor_depends_on_the_units_of_the_output() {
             );
             for k in 0..250 {
                 let (phi, mut y) = sample(memory, k);
-                let expected = plain.update(&phi, &y).unwrap().forgetting_factor;
+                let expected = take(&mut plain, &phi, &y, Noise::Unit).unwrap();
                 y.iter_mut().for_each(|y| *y *= unit);
                 let gamma = Noise::Scalar(unit * unit);
-                let found = scaled.update_weighted(&phi, &y, gamma).unwrap().forgetting_factor;
+                let found = take(&mut scaled, &phi, &y, gamma).unwrap();
                 assert_eq!(found.to_bits(), expected.to_bits(), "{}, sample {k}", about.name);
             }
         }
@@ -230,7 +253,7 @@ fn saved_rates() -> impl Iterator<Item = &'static str> {
 
 fn saves_in_the_middle<T: Real>(rate: &str, weighting: &str) {
     let memory = Dynamic::<T>::new(3, 2, 2).unwrap();
-    let mut whole: AnyEstimator<T> = make(memory, ["subspace", rate, weighting], &[]);
+    let mut whole = make(memory, ["subspace", rate, weighting]);
     for stop in [0, 1, 137] {
         let mut restored = AnyEstimator::<T>::from_bytes(&whole.to_bytes().unwrap()).unwrap();
         let next = stop.max(1) * 2;
@@ -259,19 +282,21 @@ fn a_refused_sample_changes_no_bit() {
     for rate in saved_rates() {
         for weighting in WEIGHTINGS {
             let memory = Dynamic::<f64>::new(3, 2, 1).unwrap();
-            let mut estimator = make(memory, ["exponential", rate, weighting.name], &[]);
+            let mut estimator = make(memory, ["exponential", rate, weighting.name]);
             factors(&mut estimator, 0, 120);
             let before = estimator.to_bytes().unwrap();
             let (phi, y) = sample(memory, 120);
             let mut bad_phi = phi.clone();
             bad_phi[4] = f64::INFINITY;
             let indefinite = [1.0, 2.0, 2.0, 1.0];
+            let mut refuses =
+                |phi: &[f64], y: &[f64], noise| take(&mut estimator, phi, y, noise).is_err();
             let refused = [
-                estimator.update(&phi, &[1.0, f64::NAN]).is_err(),
-                estimator.update(&bad_phi, &y).is_err(),
-                estimator.update(&phi[1..], &y).is_err(),
-                estimator.update(&phi, &[1e300, 1.0]).is_err(),
-                estimator.update_weighted(&phi, &y, Noise::Full(&indefinite)).is_err(),
+                refuses(&phi, &[1.0, f64::NAN], Noise::Unit),
+                refuses(&bad_phi, &y, Noise::Unit),
+                refuses(&phi[1..], &y, Noise::Unit),
+                refuses(&phi, &[1e300, 1.0], Noise::Unit),
+                refuses(&phi, &y, Noise::Full(&indefinite)),
             ];
             assert_eq!(refused, [true; 5]);
             assert_eq!(estimator.to_bytes().unwrap(), before, "{rate}, {}", weighting.name);
@@ -293,7 +318,7 @@ fn a_sample_that_the_rule_refuses_changes_no_bit() {
         );
         for k in 0..100_000 {
             let before = estimator.to_bytes().unwrap();
-            match estimator.update(&[0.0, 0.0], &[(k % 50) as f64]) {
+            match take(&mut estimator, &[0.0, 0.0], &[(k % 50) as f64], Noise::Unit) {
                 Ok(_) => {}
                 Err(error) => {
                     assert!(matches!(error, Error::Range { .. }), "{error}");
@@ -305,17 +330,23 @@ fn a_sample_that_the_rule_refuses_changes_no_bit() {
     }
 }
 
+/// λ of a record with the rule `subspace`.
+fn with_subspace<M: Memory>(memory: M, names: [&str; 2]) -> Vec<u64> {
+    let rule = Subspace::new(M::Real::from_f64(1e-3)).unwrap();
+    factors(&mut with(rule, memory, names, &[]), 0, 400)
+}
+
 #[test]
 fn fixed_and_dynamic_sizes_give_the_same_bits() {
     for rate in RATES {
         for weighting in WEIGHTINGS {
-            let names = ["subspace", rate.name, weighting.name];
-            let fixed = factors(&mut make(Fixed::<f64, 3, 2, 2, 512>::new(), names, &[]), 0, 400);
-            let dynamic = Dynamic::<f64>::new(3, 2, 2).unwrap();
-            assert_eq!(factors(&mut make(dynamic, names, &[]), 0, 400), fixed, "{names:?}");
-            let fixed = factors(&mut make(Fixed::<f32, 2, 1, 1, 101>::new(), names, &[]), 0, 400);
-            let dynamic = Dynamic::<f32>::new(2, 1, 1).unwrap();
-            assert_eq!(factors(&mut make(dynamic, names, &[]), 0, 400), fixed, "{names:?}");
+            let names = [rate.name, weighting.name];
+            let fixed = with_subspace(Fixed::<f64, 3, 2, 2, 512>::new(), names);
+            let dynamic = with_subspace(Dynamic::<f64>::new(3, 2, 2).unwrap(), names);
+            assert_eq!(fixed, dynamic, "{names:?}");
+            let fixed = with_subspace(Fixed::<f32, 2, 1, 1, 101>::new(), names);
+            let dynamic = with_subspace(Dynamic::<f32>::new(2, 1, 1).unwrap(), names);
+            assert_eq!(fixed, dynamic, "{names:?}");
         }
     }
 }
@@ -323,14 +354,14 @@ fn fixed_and_dynamic_sizes_give_the_same_bits() {
 /// 10⁵ samples with nothing in them, then noise without a regressor, then one direction.
 fn survives_silence<T: Real>(rate: &str, rule: &str) {
     let memory = Dynamic::<T>::new(3, 1, 1).unwrap();
-    let mut estimator = make(memory, [rule, rate, "student_t"], &[]);
+    let mut estimator = make(memory, [rule, rate, "student_t"]);
     factors(&mut estimator, 0, 120);
     let (zero, one) = (T::ZERO, T::ONE);
     for k in 0..100_000 {
         let phi = if k < 66_000 { [zero; 3] } else { [one, -one, one + one] };
         let y = if k < 33_000 { zero } else { T::from_f64((k % 7) as f64 - 3.0) };
-        match estimator.update(&phi, &[y]) {
-            Ok(update) => assert!(update.forgetting_factor.to_f64() > 0.0),
+        match take(&mut estimator, &phi, &[y], Noise::Unit) {
+            Ok(lambda) => assert!(lambda > T::ZERO),
             Err(error) => {
                 // windup is refused before it overflows
                 assert!(matches!(error, Error::Range { .. }), "{rate}, {rule}: {error}");
@@ -372,7 +403,7 @@ fn an_outlier_has_bounded_influence() {
     let full = [gamma[0], 0.0, 0.0, gamma[1]];
     let mut bounded = 0;
     for weighting in WEIGHTINGS {
-        let mut estimator = make(memory, ["none", "constant", weighting.name], &[]);
+        let mut estimator = make(memory, ["none", "constant", weighting.name]);
         let Some(c) = estimator.weighting().influence(2) else { continue };
         bounded += 1;
         for k in 0..100 {
@@ -382,7 +413,7 @@ fn an_outlier_has_bounded_influence() {
             for size in [1.0, 2.0, 1e6, -1e9, 1e60] {
                 let mut shot = estimator.clone();
                 let y = [y[0] + size, y[1], y[2] - size, y[3] + 2.0 * size];
-                shot.update_weighted(&phi, &y, Noise::Full(&full)).unwrap();
+                take(&mut shot, &phi, &y, Noise::Full(&full)).unwrap();
                 for (target, before) in estimator.theta().chunks_exact(3).enumerate() {
                     for i in 0..3 {
                         let moved = (shot.theta()[target * 3 + i] - before[i]).abs();
@@ -391,15 +422,15 @@ fn an_outlier_has_bounded_influence() {
                     }
                 }
             }
-            estimator.update_weighted(&phi, &y, Noise::Full(&full)).unwrap();
+            take(&mut estimator, &phi, &y, Noise::Full(&full)).unwrap();
         }
         // the bound is reached, or nearly
         let (phi, y) = sample(memory, 100);
         let limits = reach(&estimator, &phi, &gamma);
         let most = (0..60).map(|k| {
             let mut shot = estimator.clone();
-            let y = [y[0] + libm_exp(k), y[1], y[2], y[3]];
-            shot.update_weighted(&phi, &y, Noise::Full(&full)).unwrap();
+            let y = [y[0] + f64::from(k - 10).exp(), y[1], y[2], y[3]];
+            take(&mut shot, &phi, &y, Noise::Full(&full)).unwrap();
             (shot.theta()[0] - estimator.theta()[0]).abs() / (c * limits[0])
         });
         assert!(most.fold(0.0, f64::max) > 0.05, "{}", weighting.name);
@@ -407,22 +438,18 @@ fn an_outlier_has_bounded_influence() {
     assert_eq!(bounded, WEIGHTINGS.len() - 1, "only equal weights are not bounded");
 }
 
-fn libm_exp(k: i32) -> f64 {
-    f64::from(k - 10).exp()
-}
-
 /// However large the outlier, a rate sees no more than the clipped error.
 #[test]
 fn no_rate_forgets_more_for_a_larger_outlier() {
     let memory = Dynamic::<f64>::new(2, 1, 1).unwrap();
     for about in RATES {
-        let mut estimator = make(memory, ["exponential", about.name, "huber"], &[]);
+        let mut estimator = make(memory, ["exponential", about.name, "huber"]);
         factors(&mut estimator, 0, 149);
         let (phi, y) = sample(memory, 149);
         let after = |size: f64| {
             let mut shot = estimator.clone();
-            let this = shot.update(&phi, &[y[0] + size]).unwrap().forgetting_factor;
-            [this, shot.update(&phi, &y).unwrap().forgetting_factor]
+            let mut next = |y: &[f64]| take(&mut shot, &phi, y, Noise::Unit).unwrap();
+            [next(&[y[0] + size]), next(&y)]
         };
         for (large, larger) in after(1e6).into_iter().zip(after(1e60)) {
             assert!((large - larger).abs() < 1e-4, "{}: {large}, {larger}", about.name);

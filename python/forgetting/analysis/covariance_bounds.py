@@ -62,7 +62,8 @@ def memory(record: Record) -> float:
     """Samples the record remembers: 1 over the mean forgetting rate, ln|P̄|/|P| per parameter."""
     fine = _finite(record)
     after = np.linalg.slogdet(record.prior[fine])[1]
-    rate = (after - np.linalg.slogdet(record.before[fine])[1]) / record.parameters
+    with np.errstate(invalid="ignore"):  # a determinant lost to windup has no logarithm
+        rate = (after - np.linalg.slogdet(record.before[fine])[1]) / record.parameters
     rate = rate[np.isfinite(rate)]
     mean = float(rate.mean()) if rate.size else 0.0
     return 1 / max(-math.expm1(-mean), 1e-12) if mean > 0 else math.inf

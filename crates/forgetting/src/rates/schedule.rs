@@ -52,6 +52,8 @@ pub struct Schedule<M: Memory> {
     factors: M::List,
     count: usize,
     end: End,
+    /// whether it was given as a number, not as a list
+    number: bool,
 }
 
 impl<M: Memory> Schedule<M> {
@@ -81,7 +83,7 @@ impl<M: Memory> Schedule<M> {
             let factor = FACTORS.check(M::Real::from_f64(factor(index)));
             *place = factor.map_err(|error| error.at(index))?;
         }
-        Ok(Self { factors, count, end })
+        Ok(Self { factors, count, end, number: false })
     }
 }
 
@@ -91,7 +93,9 @@ impl<M: Memory> Rate<M> for Schedule<M> {
     fn configure(values: &dyn Values, memory: M) -> Result<Self, Error> {
         let end = [End::Hold, End::Repeat][END.choice(values)?];
         match FACTORS.look_up(values)? {
-            Value::Real(factor) => Self::of(memory, 1, &|_| factor, end),
+            Value::Real(factor) => {
+                Ok(Self { number: true, ..Self::of(memory, 1, &|_| factor, end)? })
+            }
             Value::Matrix { rows: 1, columns, elements } => {
                 Self::of(memory, columns, elements, end)
             }
@@ -102,7 +106,10 @@ impl<M: Memory> Rate<M> for Schedule<M> {
     fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>)) {
         let factors = self.factors.as_ref();
         let elements = |k: usize| factors[k].to_f64();
-        each(FACTORS.name, Value::Matrix { rows: 1, columns: self.count, elements: &elements });
+        each(FACTORS.name, match self.number {
+            true => Value::Real(elements(0)),
+            false => Value::Matrix { rows: 1, columns: self.count, elements: &elements },
+        });
         let word = match self.end {
             End::Hold => "hold",
             End::Repeat => "repeat",

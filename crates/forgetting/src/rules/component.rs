@@ -9,7 +9,7 @@
 //! | symbol | name | range | default |
 //! |---|---|---|---|
 //! | n_b | blocks | sizes of consecutive blocks, whole numbers from 1 that sum to n, or one size for all | 1 |
-//! | λ_b | forgetting_factors | (0, 1], one number a block or one for all | the forgetting factor λ_k |
+//! | λ_b | factors | (0, 1], one number a block or one for all | the forgetting factor λ_k |
 //!
 //! - Proper (A1): always.
 //! - P̄ bounded above without excitation (A2): no. In silence the variances of block b grow as
@@ -38,8 +38,8 @@ const BLOCKS: Parameter = Parameter::elements(
     Range::AT_LEAST_ONE,
     "sizes of consecutive blocks of parameters, or one size for all",
 );
-const FORGETTING_FACTORS: Parameter = Parameter::elements(
-    "forgetting_factors",
+const FACTORS: Parameter = Parameter::elements(
+    "factors",
     Kind::List,
     1.0,
     Range::FRACTION,
@@ -52,7 +52,7 @@ pub const ABOUT: About = About {
     name: "component",
     type_name: "Component",
     source: include_str!("component.rs"),
-    parameters: &[BLOCKS, FORGETTING_FACTORS],
+    parameters: &[BLOCKS, FACTORS],
     forgetting_factor: true,
     largest_rows: None,
     proper: Claim::Always,
@@ -90,13 +90,13 @@ impl<M: Memory> Component<M> {
     /// Each block at a forgetting factor of its own, in place of the common one.
     ///
     /// # Errors
-    /// [`Error`] names `forgetting_factors`: their number, or one that is not in (0, 1].
+    /// [`Error`] names `factors`: their number, or one that is not in (0, 1].
     pub fn with_factors(mut self, forgetting_factors: &[M::Real]) -> Result<Self, Error> {
-        let name = FORGETTING_FACTORS.name;
+        let name = FACTORS.name;
         Error::check_length(name, forgetting_factors.len(), self.blocks.count())?;
         let mut factors = self.memory.vector();
         for (kept, &factor) in factors.as_mut().iter_mut().zip(forgetting_factors) {
-            *kept = FORGETTING_FACTORS.check(factor)?;
+            *kept = FACTORS.check(factor)?;
         }
         self.forgetting_factors = Some(factors);
         Ok(self)
@@ -120,11 +120,11 @@ impl<M: Memory> Forgetting<M> for Component<M> {
 
     fn configure(values: &dyn Values, memory: M) -> Result<Self, Error> {
         let rule = Self::new(memory, Blocks::configure(&BLOCKS, values, memory)?);
-        if values.get(FORGETTING_FACTORS.name).is_none() {
+        if values.get(FACTORS.name).is_none() {
             return Ok(rule);
         }
         let (count, mut factors) = (rule.blocks.count(), memory.vector());
-        FORGETTING_FACTORS.list(values, count, |b, factor| factors.as_mut()[b] = factor)?;
+        FACTORS.list(values, count, |b, factor| factors.as_mut()[b] = factor)?;
         Ok(Self { forgetting_factors: Some(factors), ..rule })
     }
 
@@ -133,7 +133,7 @@ impl<M: Memory> Forgetting<M> for Component<M> {
         if let Some(factors) = &self.forgetting_factors {
             let elements = |b: usize| factors.as_ref()[b].to_f64();
             let columns = self.blocks.count();
-            each(FORGETTING_FACTORS.name, Value::Matrix { rows: 1, columns, elements: &elements });
+            each(FACTORS.name, Value::Matrix { rows: 1, columns, elements: &elements });
         }
     }
 

@@ -291,4 +291,5 @@ registry! {
     efra::Efra,
     constant_trace::ConstantTrace,
     multiple::Multiple,
+    custom::Custom,
 }

@@ -70,6 +70,6 @@ impl<M: Memory> Forgetting<M> for NoForgetting<M> {
 
     #[inline]
     fn forget(&self, (): &mut (), _: Step<'_, '_, M>) -> Result<Forgotten, Error> {
-        Ok(Forgotten::rank(0))
+        Ok(Forgotten::rank(0).with_factor(1.0))
     }
 }

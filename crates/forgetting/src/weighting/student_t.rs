@@ -2,18 +2,18 @@
 //!
 //! ```text
 //! r_k = ‖ē_k‖ over the rows, of the target where it is longest     ē = Γ^(−1/2)(y − φθ)
-//! w_k = (ν + p)/(ν + r_k²)                                         Γ ← Γ/w
+//! w_k = min(1, (ν + p)/(ν + r_k²))                                 Γ ← Γ/w
 //! ```
 //!
 //! | symbol | name | range | default |
 //! |---|---|---|---|
 //! | ν | degrees | (0, ∞) | 4 |
 //!
-//! - Bounded influence: w r ≤ c = (ν + p)/(2√ν), reached at r = √ν. One sample moves θ_i of any
-//!   target by at most c ‖(P̄φ̄ᵀ)_i‖ ≤ c √(P̄_ii tr φ̄P̄φ̄ᵀ), whatever y is; see `huber`. Beyond r = √ν
-//!   the influence falls again, to 0 as 1/r.
-//! - A sample with a small error counts up to (ν + p)/ν as much as its Γ says: w is the weight of
-//!   the maximum likelihood estimate, Γ the scale of the distribution, not its covariance.
+//! - Bounded influence: w r ≤ c, with c = (ν + p)/(2√ν) at r = √ν, or √p at r = √p if ν < p. One
+//!   sample moves θ_i of any target by at most c ‖(P̄φ̄ᵀ)_i‖ ≤ c √(P̄_ii tr φ̄P̄φ̄ᵀ), whatever y is;
+//!   see `huber`. Beyond that r the influence falls again, to 0 as 1/r.
+//! - w is the weight of the maximum likelihood estimate, but never above 1: that would trust a
+//!   sample more than its Γ says.
 //! - Rates see the clipped error w ē.
 //! - Cost: O(p m). State: none.
 //! - Use it when gross errors are so large that even a clipped one disturbs; `huber` loses less
@@ -42,7 +42,7 @@ pub const ABOUT: AboutWeighting = AboutWeighting {
     parameters: &[DEGREES],
 };
 
-/// w = (ν + p)/(ν + r²); see [`self`](crate::weighting::student_t).
+/// w = min(1, (ν + p)/(ν + r²)); see [`self`](crate::weighting::student_t).
 #[derive(Clone, Copy, Debug)]
 pub struct StudentT<M: Memory> {
     degrees: M::Real,
@@ -71,24 +71,24 @@ impl<M: Memory> Weighting<M> for StudentT<M> {
     fn weight(&self, evidence: &Evidence<'_, '_, M>) -> M::Real {
         let (nu, p) = (self.degrees, M::Real::from_f64(evidence.rows as f64));
         let w = (nu + p) / (nu + evidence.largest_squared_error());
-        w.max(M::Real::FLOOR).min(M::Real::CEILING)
+        w.max(M::Real::FLOOR).min(M::Real::ONE)
     }
 
     fn influence(&self, rows: usize) -> Option<M::Real> {
-        let (nu, two) = (self.degrees, M::Real::from_f64(2.0));
-        Some((nu + M::Real::from_f64(rows as f64)) / (two * nu.sqrt()))
+        let (nu, p) = (self.degrees, M::Real::from_f64(rows as f64));
+        Some(if nu < p { p.sqrt() } else { (nu + p) / (nu.sqrt() + nu.sqrt()) })
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::StudentT;
+    use super::{StudentT, Weighting};
     use crate::{Constant, Fixed, Estimator, NoForgetting, Prior};
 
-    /// ν = 4, r = 4: w = 5/20, P₊ = 1/(1 + w), θ₊ = P₊ w 4; r = 0: w = 5/4.
+    /// ν = 4, r = 4: w = 5/20, P₊ = 1/(1 + w), θ₊ = P₊ w 4; r = ½: w = 1, not 5/4.25.
     #[test]
     fn weighs_by_the_error() {
-        for (y, weight) in [(4.0, 0.25), (0.0, 1.25)] {
+        for (y, weight) in [(4.0, 0.25), (0.5, 1.0)] {
             let memory = Fixed::<f64, 1>::new();
             let (rate, prior) = (Constant::new(1.0).unwrap(), Prior::scalar(memory, 1.0).unwrap());
             let student = StudentT::new(4.0).unwrap();
@@ -96,6 +96,17 @@ mod tests {
             let update = estimator.update(&[1.0], &[y]).unwrap();
             assert!((update.leverage - weight).abs() < 1e-15);
             assert!((estimator.theta()[0] - weight * y / (1.0 + weight)).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn its_influence_is_largest_where_the_header_says() {
+        for (nu, rows) in [(4.0, 1), (4.0, 3), (1.0, 4), (0.5, 2)] {
+            let weighting = StudentT::<Fixed<f64, 1>>::new(nu).unwrap();
+            let c = Weighting::influence(&weighting, rows).unwrap();
+            let w = |r: f64| ((nu + rows as f64) / (nu + r * r)).min(1.0);
+            let most = (0..100_000).map(|k| f64::from(k) * 1e-4).fold(0.0f64, |most, r| most.max(w(r) * r));
+            assert!(most <= c && most > c * (1.0 - 1e-6), "{most} is not {c}");
         }
     }
 }

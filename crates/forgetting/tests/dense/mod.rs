@@ -80,26 +80,37 @@ impl Dense {
     /// The eigenvalues of a symmetric matrix in ascending order, by Jacobi's rotations.
     pub fn eigenvalues(&self) -> Vec<f64> {
         let (n, mut a) = (self.rows, self.clone());
+        let mut rotated = true;
         for _ in 0..60 {
+            if !core::mem::take(&mut rotated) {
+                break;
+            }
             for (p, q) in (0..n).flat_map(|p| (p + 1..n).map(move |q| (p, q))) {
-                if a.at(p, q) == 0.0 {
-                    continue;
+                let size = (a.at(p, p) * a.at(q, q)).abs().sqrt();
+                if a.at(p, q).abs() > 1e-17 * size {
+                    a.rotate(p, q);
+                    rotated = true;
                 }
-                let zeta = (a.at(q, q) - a.at(p, p)) / (2.0 * a.at(p, q));
-                let t = zeta.signum() / (zeta.abs() + zeta.hypot(1.0));
-                let (c, s) = (1.0 / t.hypot(1.0), t / t.hypot(1.0));
-                let mut turn = Self::identity(n);
-                for (i, j, x) in [(p, p, c), (p, q, s), (q, p, -s), (q, q, c)] {
-                    turn.elements[i * n + j] = x;
-                }
-                a = turn.transpose() * a * turn;
-                a.elements[p * n + q] = 0.0;
-                a.elements[q * n + p] = 0.0;
             }
         }
         let mut values: Vec<f64> = (0..n).map(|i| a.at(i, i)).collect();
         values.sort_by(f64::total_cmp);
         values
+    }
+
+    /// Makes the element at p, q zero by a rotation of both rows and both columns.
+    fn rotate(&mut self, p: usize, q: usize) {
+        let n = self.rows;
+        let zeta = (self.at(q, q) - self.at(p, p)) / (2.0 * self.at(p, q));
+        let t = zeta.signum() / (zeta.abs() + zeta.hypot(1.0));
+        let (c, s) = (1.0 / t.hypot(1.0), t / t.hypot(1.0));
+        let mut turn = |x: usize, y: usize| {
+            let (a, b) = (self.elements[x], self.elements[y]);
+            (self.elements[x], self.elements[y]) = (c * a - s * b, s * a + c * b);
+        };
+        (0..n).for_each(|k| turn(p * n + k, q * n + k));
+        (0..n).for_each(|k| turn(k * n + p, k * n + q));
+        (self.elements[p * n + q], self.elements[q * n + p]) = (0.0, 0.0);
     }
 
     /// How far apart two matrices are, relative to the second.

@@ -215,13 +215,16 @@ pub fn gain(covariance: &Dense, phi: &Dense, c: f64) -> Dense {
     cross.times(&spread.inverse())
 }
 
+/// An estimator with a constant rate, all samples trusted alike.
+pub type Plain<F, T> = Estimator<F, Constant<Dynamic<T>>, Equal<Dynamic<T>>, Dynamic<T>>;
+
 /// An estimator with θ₀ = 0 and P₀ = `variance`·I and the constant factor `lambda`.
 pub fn estimator<T: Real, F: Forgetting<Dynamic<T>>>(
     rule: F,
     lambda: f64,
     memory: Dynamic<T>,
     variance: f64,
-) -> Estimator<F, Constant<Dynamic<T>>, Equal<Dynamic<T>>, Dynamic<T>> {
+) -> Plain<F, T> {
     let rate = Constant::new(T::from_f64(lambda)).unwrap();
     let prior = Prior::scalar(memory, T::from_f64(variance)).unwrap();
     Estimator::new(rule, rate, Equal::new(), prior)
@@ -229,7 +232,7 @@ pub fn estimator<T: Real, F: Forgetting<Dynamic<T>>>(
 
 /// Takes a sample.
 pub fn update<T: Real, F: Forgetting<Dynamic<T>>>(
-    estimator: &mut Estimator<F, Constant<Dynamic<T>>, Equal<Dynamic<T>>, Dynamic<T>>,
+    estimator: &mut Plain<F, T>,
     phi: &Dense,
     y: &Dense,
 ) -> usize {
@@ -240,9 +243,7 @@ pub fn update<T: Real, F: Forgetting<Dynamic<T>>>(
 }
 
 /// θ and P of an estimator.
-pub fn result<T: Real, F: Forgetting<Dynamic<T>>>(
-    estimator: &Estimator<F, Constant<Dynamic<T>>, Equal<Dynamic<T>>, Dynamic<T>>,
-) -> (Dense, Dense) {
+pub fn result<T: Real, F: Forgetting<Dynamic<T>>>(estimator: &Plain<F, T>) -> (Dense, Dense) {
     let n = estimator.prior().memory().parameters();
     let mut covariance = vec![T::ZERO; n * n];
     estimator.factor().reconstruct(&mut covariance);

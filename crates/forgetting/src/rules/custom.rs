@@ -1,0 +1,232 @@
+//! Forgets what a function of the user's says: Theorem 1 itself.
+//!
+//! ```text
+//! F_k = forgetting_matrix(R_k, φ̄_k, ē_k)    R = P⁻¹ n x n, φ̄ p x n and ē p x m, whitened
+//! R̄ = R − F_k                               GF-RLS (9), (12); refused unless R̄ > 0
+//! ```
+//!
+//! | symbol | name | range | default |
+//! |---|---|---|---|
+//! | F_k | forgetting_matrix | a function; its result symmetric, n x n, with R − F > 0 | |
+//!
+//! - Proper (A1): if the function returns F ≥ 0.
+//! - P̄ bounded above without excitation (A2): if R − F ≥ c I, c > 0.
+//! - P bounded below (A3): if R − F is bounded, and φ.
+//! - Cost: O(n³) and the function. State: P alone; with a function of the user's it cannot be
+//!   saved as bytes.
+//! - Use it to try a rule of your own before writing it as one. A sample for which the function
+//!   fails, or R − F is not positive definite beyond the rounding of R, is refused and changes
+//!   nothing.
+//!
+//! Reference: A. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
+//! stability and robustness guarantees*, IEEE Transactions on Automatic Control, 2024,
+//! Theorem 1.
+
+use super::{About, Claim, Forgetting, Forgotten, Step};
+use crate::factor::dense::check_symmetric;
+#[cfg(feature = "alloc")]
+use crate::function::{Argument, MatrixFunction};
+#[cfg(feature = "alloc")]
+use alloc::sync::Arc;
+use crate::parameter::{Kind, Parameter, Range, Value, Values};
+use crate::state::{State, Visitor};
+use crate::{Error, Memory, Real};
+use core::marker::PhantomData;
+
+const FORGETTING_MATRIX: Parameter = Parameter::elements(
+    "forgetting_matrix",
+    Kind::Function,
+    0.0,
+    Range::FINITE,
+    "function of R (n x n), the whitened phi (rows x n) and error (rows x targets) that returns F",
+)
+.required();
+
+/// The registry entry.
+pub const ABOUT: About = About {
+    name: "custom",
+    type_name: "Custom",
+    source: include_str!("custom.rs"),
+    parameters: &[FORGETTING_MATRIX],
+    forgetting_factor: false,
+    largest_rows: None,
+    proper: Claim::If("forgetting_matrix >= 0"),
+    bounded_above: Claim::If("R - forgetting_matrix >= c * I, c > 0"),
+    bounded_below: Claim::If("R - forgetting_matrix bounded, regressors bounded"),
+    cost: "O(n^3) and the function",
+};
+
+/// What says F: in Rust, any closure of this form.
+///
+/// It is given R (n x n), φ̄ (p x n) and ē (p x m), all row by row, and writes F (n x n).
+pub trait ForgettingMatrix<T: Real>: Clone + Send + Sync {
+    /// Writes F to `matrix`, which holds zeros.
+    ///
+    /// # Errors
+    /// Whatever is wrong; the sample is refused with it.
+    fn forgetting_matrix(
+        &self,
+        information: &[T],
+        phi: &[T],
+        error: &[T],
+        matrix: &mut [T],
+    ) -> Result<(), Error>;
+
+    /// The function as the value of a parameter, if it can be one.
+    fn value(&self) -> Option<Value<'_>> {
+        None
+    }
+
+    /// The function that is the value of the parameter.
+    ///
+    /// # Errors
+    /// [`Error::Missing`] where a function cannot be one.
+    fn given(values: &dyn Values) -> Result<Self, Error> {
+        let _ = values;
+        Err(Error::Missing { parameter: FORGETTING_MATRIX.name })
+    }
+}
+
+impl<T, C> ForgettingMatrix<T> for C
+where
+    T: Real,
+    C: Fn(&[T], &[T], &[T], &mut [T]) -> Result<(), Error> + Clone + Send + Sync,
+{
+    fn forgetting_matrix(&self, r: &[T], phi: &[T], e: &[T], f: &mut [T]) -> Result<(), Error> {
+        self(r, phi, e, f)
+    }
+}
+
+/// A function that was given by name, at run time.
+#[cfg(feature = "alloc")]
+#[derive(Clone, Debug)]
+pub struct Given<T>(Arc<dyn MatrixFunction>, PhantomData<T>);
+
+#[cfg(feature = "alloc")]
+impl<T: Real> ForgettingMatrix<T> for Given<T> {
+    fn forgetting_matrix(&self, r: &[T], phi: &[T], e: &[T], f: &mut [T]) -> Result<(), Error> {
+        let n = (0..=r.len()).find(|n| n * n >= r.len()).unwrap_or(1);
+        let rows = phi.len() / n;
+        let at = |x: &'_ [T], k: usize| x.get(k).map_or(f64::NAN, |x| x.to_f64());
+        let arguments = [
+            Argument { rows: n, columns: n, elements: &|k| at(r, k) },
+            Argument { rows, columns: n, elements: &|k| at(phi, k) },
+            Argument { rows, columns: e.len() / rows.max(1), elements: &|k| at(e, k) },
+        ];
+        self.0.call(&arguments, (n, n), &mut |k, x| {
+            if let Some(f) = f.get_mut(k) {
+                *f = T::from_f64(x);
+            }
+        })
+    }
+
+    fn value(&self) -> Option<Value<'_>> {
+        Some(Value::Function(&self.0))
+    }
+
+    fn given(values: &dyn Values) -> Result<Self, Error> {
+        let function = match FORGETTING_MATRIX.look_up(values)? {
+            Value::Function(function) => function.downcast_ref::<Arc<dyn MatrixFunction>>(),
+            _ => None,
+        };
+        let refusal = Error::value(FORGETTING_MATRIX.name, f64::NAN, "a function");
+        function.map(|function| Self(function.clone(), PhantomData)).ok_or(refusal)
+    }
+}
+
+/// The function of a rule that is made by name.
+#[cfg(feature = "alloc")]
+pub type Named<T> = Given<T>;
+/// The function of a rule that is made by name; without `alloc` none can be.
+#[cfg(not(feature = "alloc"))]
+pub type Named<T> = fn(&[T], &[T], &[T], &mut [T]) -> Result<(), Error>;
+
+/// Forgets what a function says; see [`self`](crate::rules::custom).
+#[derive(Clone)]
+pub struct Custom<M: Memory, C = Named<<M as Memory>::Real>> {
+    function: C,
+    memory: PhantomData<M>,
+}
+
+/// R, then R − F, and F; of use within one sample only.
+#[derive(Clone, Debug)]
+pub struct Buffers<M: Memory> {
+    information: M::Square,
+    matrix: M::Square,
+}
+
+impl<M: Memory, C: ForgettingMatrix<M::Real>> Custom<M, C> {
+    /// With this function of R, φ̄ and ē.
+    ///
+    /// ```
+    /// use forgetting::rules::Custom;
+    /// use forgetting::{Constant, Equal, Error, Estimator, Fixed, Prior};
+    ///
+    /// let leak = |r: &[f64], _: &[f64], _: &[f64], f: &mut [f64]| {
+    ///     f.iter_mut().zip(r).for_each(|(f, r)| *f = 0.02 * r);
+    ///     Ok(())
+    /// };
+    /// let prior = Prior::scalar(Fixed::<f64, 2>::new(), 100.0)?;
+    /// let rate = Constant::new(1.0)?;
+    /// let mut estimator = Estimator::new(Custom::new(leak), rate, Equal::new(), prior);
+    /// estimator.update(&[1.0, 2.0], &[5.0])?;
+    /// # Ok::<(), Error>(())
+    /// ```
+    pub fn new(function: C) -> Self {
+        Self { function, memory: PhantomData }
+    }
+}
+
+impl<M: Memory, C> core::fmt::Debug for Custom<M, C> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("Custom").finish_non_exhaustive()
+    }
+}
+
+impl<M: Memory, C: ForgettingMatrix<M::Real>> Forgetting<M> for Custom<M, C> {
+    type State = Buffers<M>;
+
+    fn configure(values: &dyn Values, _: M) -> Result<Self, Error> {
+        C::given(values).map(Self::new)
+    }
+
+    fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>)) {
+        if let Some(value) = self.function.value() {
+            each(FORGETTING_MATRIX.name, value);
+        }
+    }
+
+    fn start(&self, memory: M) -> Buffers<M> {
+        Buffers { information: memory.square(), matrix: memory.square() }
+    }
+
+    fn forget(&self, state: &mut Buffers<M>, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
+        let n = step.factor.parameters();
+        let (information, matrix) = (state.information.as_mut(), state.matrix.as_mut());
+        step.factor.reconstruct_information(information, matrix);
+        matrix.fill(M::Real::ZERO);
+        let sample = &step.sample;
+        self.function.forgetting_matrix(information, sample.regressors(), sample.errors(), matrix)?;
+        check_symmetric(FORGETTING_MATRIX.name, matrix, n)?;
+        if matrix.iter().all(|f| *f == M::Real::ZERO) {
+            return Ok(Forgotten::rank(0));
+        }
+        // what is left must exceed the rounding of what it is left of
+        let rounding = M::Real::EPSILON * M::Real::from_f64(4.0 * n as f64);
+        let least = step.work.gain.as_mut();
+        let half = M::Real::from_f64(0.5);
+        for i in 0..n {
+            least[i] = rounding * information[i * n + i];
+            for j in 0..=i {
+                information[i * n + j] -= half * (matrix[i * n + j] + matrix[j * n + i]);
+            }
+        }
+        const NAME: &str = "information - forgetting_matrix";
+        step.factor.replace_information(information, |i| least[i], NAME)?;
+        Ok(Forgotten::rank(n))
+    }
+}
+
+impl<M: Memory> State<M::Real> for Buffers<M> {
+    fn visit(&mut self, _: &mut dyn Visitor<M::Real>) {}
+}

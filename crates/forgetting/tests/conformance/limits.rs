@@ -1,0 +1,140 @@
+//! Limits at which every rule does the same.
+
+use crate::record::{record, Datum};
+use crate::subjects::{rules, subjects};
+use forgetting::saved::AnyEstimator;
+use forgetting::{Noise, Real};
+
+/// Rules whose forgetting factor is not all that forgets, and why.
+const MORE_THAN_A_FACTOR: [(&str, &str); 2] = [
+    ("multiple", "drops what the blocks know of each other, whatever the factor"),
+    ("efra", "adds to P and saturates it, whatever the factor"),
+];
+
+fn numbers<T: Real>(estimator: &AnyEstimator<T>) -> Vec<u64> {
+    let factor = estimator.factor();
+    let parts = [estimator.theta(), factor.packed_columns(), factor.diagonal_elements()];
+    parts.iter().flat_map(|part| part.iter().map(|x| x.to_f64().to_bits())).collect()
+}
+
+fn factor_one_is_none<T: Real>(sizes: (usize, usize, usize)) {
+    // only what excites: what is too small to inform, some rules skip
+    let data: Vec<Datum<T>> = record(sizes, 600).into_iter().take(100).collect();
+    let none = rules().find(|subject| subject.about.name == "none").unwrap();
+    for subject in rules().filter(|subject| subject.about.forgetting_factor) {
+        if MORE_THAN_A_FACTOR.iter().any(|(name, _)| *name == subject.about.name) {
+            continue;
+        }
+        let mut one = subject.estimator::<T>(sizes, 1.0, 100.0).unwrap();
+        let mut other = none.estimator::<T>(sizes, 1.0, 100.0).unwrap();
+        for Datum { phi, y, gamma } in &data {
+            let rank = one.update_weighted(phi, y, Noise::Full(gamma)).unwrap().rank;
+            assert_eq!(rank, 0, "{subject:?}");
+            other.update_weighted(phi, y, Noise::Full(gamma)).unwrap();
+            assert_eq!(numbers(&one), numbers(&other), "{subject:?}");
+        }
+    }
+}
+
+#[test]
+fn with_factor_one_every_rule_is_none() {
+    factor_one_is_none::<f64>((4, 1, 2));
+    factor_one_is_none::<f32>((3, 1, 1));
+}
+
+fn silence_is_harmless<T: Real>(sizes: (usize, usize, usize)) {
+    let (n, p, m) = sizes;
+    let data: Vec<Datum<T>> = record(sizes, 300);
+    for subject in subjects() {
+        let Some(mut estimator) = subject.estimator::<T>(sizes, 0.99, 10.0) else { continue };
+        for Datum { phi, y, .. } in &data[..40] {
+            estimator.update(phi, y).unwrap();
+        }
+        let before: Vec<T> = estimator.theta().to_vec();
+        for k in 0..200 {
+            let y: Vec<T> = (0..p * m).map(|i| T::from_f64(((i + k) % 5) as f64 - 2.0)).collect();
+            let update = estimator.update(&vec![T::ZERO; p * n], &y).unwrap();
+            assert_eq!(update.leverage.to_f64(), 0.0, "{subject:?}");
+            assert!(estimator.is_sound(), "{subject:?}");
+            assert!(estimator.theta() == before, "{subject:?}");
+        }
+    }
+}
+
+#[test]
+fn a_silent_regressor_moves_no_parameter() {
+    silence_is_harmless::<f64>((3, 1, 1));
+    silence_is_harmless::<f64>((4, 3, 2));
+    silence_is_harmless::<f32>((3, 2, 1));
+}
+
+/// `forget` cannot reach θ; what could move it is a sample that a rule has rotated or scaled
+/// without its error.
+fn no_error_no_move<T: Real>(sizes: (usize, usize, usize)) {
+    let (_, p, m) = sizes;
+    let data: Vec<Datum<T>> = record(sizes, 300);
+    for subject in subjects() {
+        let Some(mut estimator) = subject.estimator::<T>(sizes, 0.9, 10.0) else { continue };
+        for Datum { phi, y, .. } in &data[..40] {
+            estimator.update(phi, y).unwrap();
+        }
+        let before: Vec<T> = estimator.theta().to_vec();
+        for Datum { phi, gamma, .. } in &data {
+            let mut y = vec![T::ZERO; p * m];
+            estimator.predict(phi, &mut y).unwrap();
+            estimator.update_weighted(phi, &y, Noise::Full(gamma)).unwrap();
+            assert!(estimator.theta() == before, "{subject:?}");
+        }
+    }
+}
+
+#[test]
+fn a_sample_without_error_moves_no_parameter() {
+    no_error_no_move::<f64>((3, 1, 1));
+    no_error_no_move::<f64>((4, 3, 2));
+    no_error_no_move::<f32>((5, 2, 1));
+}
+
+fn refused_samples_change_nothing<T: Real>(sizes: (usize, usize, usize)) {
+    let (n, p, m) = sizes;
+    let data: Vec<Datum<T>> = record(sizes, 60);
+    let (nan, infinite) = (T::from_f64(f64::NAN), T::from_f64(f64::INFINITY));
+    let huge = T::CEILING * T::from_f64(16.0);
+    let with = |length: usize, value: T| {
+        let mut all = vec![T::ONE; length];
+        all[length - 1] = value;
+        all
+    };
+    let fine = (vec![T::ONE; p * n], vec![T::ONE; p * m]);
+    let mut bad: Vec<(Vec<T>, Vec<T>, Option<Vec<T>>)> = Vec::new();
+    for value in [nan, infinite, -infinite, huge] {
+        bad.push((with(p * n, value), fine.1.clone(), None));
+        bad.push((fine.0.clone(), with(p * m, value), None));
+        bad.push((fine.0.clone(), fine.1.clone(), Some(with(p * p, nan))));
+    }
+    bad.push((vec![T::ONE; p * n + 1], fine.1.clone(), None));
+    bad.push((vec![T::ONE; p * n - 1], fine.1.clone(), None));
+    bad.push((fine.0.clone(), vec![T::ONE; p * m + 1], None));
+    bad.push((fine.0.clone(), fine.1.clone(), Some(vec![T::ONE; p * p + 1])));
+    bad.push((fine.0.clone(), fine.1.clone(), Some(vec![-T::ONE; p * p])));
+    for subject in subjects() {
+        let Some(mut estimator) = subject.estimator::<T>(sizes, 0.9, 10.0) else { continue };
+        for Datum { phi, y, .. } in &data {
+            estimator.update(phi, y).unwrap();
+            let before = estimator.to_bytes().unwrap();
+            for (phi, y, gamma) in &bad {
+                let noise = gamma.as_ref().map_or(Noise::Unit, |gamma| Noise::Full(gamma));
+                let refused = estimator.update_weighted(phi, y, noise).is_err();
+                assert!(refused, "{subject:?}: {phi:?}, {y:?}, {gamma:?}");
+                assert!(estimator.to_bytes().unwrap() == before, "{subject:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_refused_sample_changes_no_bit() {
+    refused_samples_change_nothing::<f64>((3, 1, 1));
+    refused_samples_change_nothing::<f64>((2, 2, 2));
+    refused_samples_change_nothing::<f32>((3, 1, 2));
+}

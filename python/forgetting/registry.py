@@ -1,0 +1,10 @@
+"""Every rule, rate and weighting of the registries, each a class of its own.
+
+The classes are made at import; `registry.pyi`, written by ``tools/stubs.py``, tells type
+checkers and editors of them.
+"""
+
+from .choices import CLASSES
+
+globals().update(CLASSES)
+__all__ = tuple(CLASSES)

@@ -1,0 +1,111 @@
+"""Writes python/forgetting/registry.pyi, which tells type checkers of the registries' classes.
+
+python tools/stubs.py            writes the file
+python tools/stubs.py --check    fails if it is not what would be written
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from forgetting import choices
+
+STUB = Path(__file__).parent.parent / "python" / "forgetting" / "registry.pyi"
+
+HEAD = """\
+# Written by tools/stubs.py from the registries of the core: do not edit.
+# ruff: noqa: E501 (headers as they stand in the rule files)
+
+from collections.abc import Callable, Mapping
+from typing import Any, ClassVar, Literal
+
+from numpy.typing import ArrayLike
+
+from ._core import Evidence
+from .choices import ForgettingFactor, Rate, Rule, Weighting
+"""
+
+TYPES = {
+    "real": "float",
+    "whole": "int",
+    "matrix": "ArrayLike",
+    "list": "ArrayLike",
+    "rule": "Rule | str",
+    "function": "Callable[[Evidence], float]",
+}
+
+
+def parameter(entry: Mapping[str, Any]) -> str:
+    """One line of a constructor."""
+    kind = entry["kind"]
+    words = ", ".join(f'"{word}"' for word in entry["range"].split(", "))
+    annotation = f"Literal[{words}]" if kind == "word" else TYPES[kind]
+    if entry["required"]:
+        return f"{entry['name']}: {annotation}"
+    default = entry["default"]
+    if default is None:
+        return f"{entry['name']}: {annotation} | None = None"
+    if kind == "whole":
+        default = int(default)
+    written = f'"{default}"' if isinstance(default, str) else repr(default)
+    return f"{entry['name']}: {annotation} = {written}"
+
+
+def constructor(about: Mapping[str, Any]) -> Iterator[str]:
+    """The constructor, each parameter on a line of its own."""
+    # the order of the real signature, in which the required parameters come first
+    order = list(choices.CLASSES[about["type_name"]].__signature__.parameters)  # type: ignore[attr-defined]
+    entries = {entry["name"]: parameter(entry) for entry in about["parameters"]}
+    if about.get("forgetting_factor"):
+        entries["forgetting_factor"] = "forgetting_factor: ForgettingFactor = 0.99"
+    if not order:
+        yield "    def __init__(self) -> None: ..."
+        return
+    yield "    def __init__("
+    yield "        self,"
+    for name in order:
+        yield f"        {entries[name]},"
+    yield "    ) -> None: ..."
+
+
+def stub_of(kind: type[choices.Choice]) -> Iterator[str]:
+    """The class of one registry entry."""
+    about = kind.about
+    header = about["header"].replace("\\", "\\\\").rstrip().splitlines()
+    yield f"class {kind.__name__}({kind.__bases__[0].__name__}):"
+    yield f'    """{header[0]}'
+    for line in header[1:]:
+        yield f"    {line}".rstrip()
+    yield '    """'
+    yield ""
+    yield "    about: ClassVar[Mapping[str, Any]]"
+    yield "    name: ClassVar[str]"
+    yield from constructor(about)
+
+
+def stub() -> str:
+    """The whole file."""
+    lines = [HEAD]
+    names = sorted(choices.CLASSES)
+    lines += ["__all__ = [", *(f'    "{name}",' for name in names), "]", ""]
+    for name in names:
+        lines += [*stub_of(choices.CLASSES[name]), ""]
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def main() -> int:
+    """Write the file, or only compare it."""
+    if "--check" not in sys.argv[1:]:
+        STUB.write_text(stub(), encoding="utf-8")
+        return 0
+    if STUB.read_text(encoding="utf-8") == stub():
+        return 0
+    print(f"{STUB} is stale: run python tools/stubs.py", file=sys.stderr)
+    return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
