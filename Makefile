@@ -28,7 +28,7 @@ lint: build
 	$(BIN)/mypy
 
 rust:
-	cargo test --package forgetting --quiet
+	cargo test --package forgetting --package forgetting-cpu --quiet
 
 python: build
 	$(BIN)/pytest

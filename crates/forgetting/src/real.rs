@@ -15,12 +15,6 @@ pub trait Kernel<T: Real> {
     fn run<V: Vector<T>, const GROUP: usize>(self) -> Self::Output;
 }
 
-/// Runs a kernel as the compiler makes it; once for all places that call it.
-#[inline(never)]
-fn run<T: Real, K: Kernel<T>>(kernel: K) -> K::Output {
-    kernel.run::<T::Lanes, 2>()
-}
-
 /// A floating-point number.
 ///
 /// Every algorithm of this crate is written once, over this trait. A type that rounds
@@ -82,9 +76,11 @@ pub trait Real:
     fn is_finite(self) -> bool;
 
     /// Runs a loop over numbers of this type, with the instructions that suit it best.
+    ///
+    /// Each loop exists once for a number type, not once for each rule, rate and size.
     #[inline(never)]
     fn compute<K: Kernel<Self>>(kernel: K) -> K::Output {
-        run::<Self, K>(kernel)
+        kernel.run::<Self::Lanes, 2>()
     }
 
     /// `numbers` as chunks, and what is left.
