@@ -102,7 +102,9 @@ def main() -> None:
             compare("variable_direction", ours(rule, n, p), eigh_step, n, p, samples)
     if "oblique_projection" in names:
         rule = fg.rule("oblique_projection", forgetting_factor=LAMBDA)
-        compare("oblique_projection", ours(rule, 64, 2), oblique_step, 64, 2, 300 if quick else 1000)
+        compare(
+            "oblique_projection", ours(rule, 64, 2), oblique_step, 64, 2, 300 if quick else 1000
+        )
 
 
 if __name__ == "__main__":

@@ -7,9 +7,10 @@ circuit voltage with the state of charge, the resistance with age and temperatur
 the current is zero, and says nothing about R for hours.
 """
 
-import forgetting as fg
 import matplotlib.pyplot as plt
 import numpy as np
+
+import forgetting as fg
 from forgetting.plot import styled
 
 # %%

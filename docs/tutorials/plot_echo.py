@@ -7,9 +7,10 @@ and an input, speech, that comes in bursts. The question is what it does when th
 again after a silence, just as somebody coughs into the microphone.
 """
 
-import forgetting as fg
 import matplotlib.pyplot as plt
 import numpy as np
+
+import forgetting as fg
 from forgetting.plot import styled
 
 # %%

@@ -7,9 +7,10 @@ Here an ARX model of a plant is followed through a change of its gain, with a se
 only now and then.
 """
 
-import forgetting as fg
 import matplotlib.pyplot as plt
 import numpy as np
+
+import forgetting as fg
 from forgetting.plot import styled
 
 # %%

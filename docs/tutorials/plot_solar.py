@@ -9,6 +9,7 @@ package and is read from there.
 """
 
 import matplotlib.pyplot as plt
+
 from forgetting.demo.solar import identified, solar_record
 from forgetting.plot import eigenvalues, styled
 

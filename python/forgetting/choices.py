@@ -161,9 +161,7 @@ WEIGHTINGS: dict[str, type[Weighting]] = {
     for a in _core.weightings()
 }
 CLASSES: dict[str, type[Choice]] = {
-    kind.__name__: kind
-    for registry in (RULES, RATES, WEIGHTINGS)
-    for kind in registry.values()
+    kind.__name__: kind for registry in (RULES, RATES, WEIGHTINGS) for kind in registry.values()
 }
 
 AnyChoice = TypeVar("AnyChoice", bound=Choice)

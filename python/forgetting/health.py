@@ -90,7 +90,7 @@ class Health:
             return self.status
         silence = self.since_excited if self.since_excited is not None else np.zeros(0)
         if self.informed:  # so it is a parameter that is silent
-            involved, samples = silence.argmax(keepdims=True), int(silence.max())
+            involved, samples = np.array([silence.argmax()]), int(silence.max())
         else:
             size = np.abs(self.direction)
             involved = np.flatnonzero(size > 0.3 * size.max())

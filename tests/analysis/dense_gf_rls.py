@@ -10,6 +10,7 @@ Arrays carry a leading axis of runs: Ï† (B, T, p, n), P (B, n, n). Weighted by Î
 from dataclasses import dataclass
 
 import numpy as np
+
 from forgetting.analysis import Record
 
 

@@ -2,9 +2,10 @@
 
 import json
 
-import forgetting as fg
 import numpy as np
 import pytest
+
+import forgetting as fg
 from forgetting.analysis import Record, certify, windup
 
 OUTPUTS = ("error", "covariance", "skipped", "forgetting_factor")

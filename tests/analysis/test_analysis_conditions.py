@@ -5,6 +5,7 @@ import json
 import dense_gf_rls as dense
 import numpy as np
 import pytest
+
 from forgetting import InvalidInput
 from forgetting.analysis import (
     Record,

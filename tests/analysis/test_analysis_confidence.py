@@ -3,6 +3,7 @@
 import dense_gf_rls as dense
 import numpy as np
 import pytest
+
 from forgetting import InvalidInput
 from forgetting.analysis import Record, confidence
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+
 from forgetting import InvalidInput
 from forgetting.analysis import (
     excitation,

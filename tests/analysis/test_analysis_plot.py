@@ -3,12 +3,14 @@
 import dense_gf_rls as dense
 import numpy as np
 import pytest
+
 from forgetting import analysis
 
 matplotlib = pytest.importorskip("matplotlib")
 matplotlib.use("Agg")
-from forgetting.analysis import plot  # noqa: E402
 from matplotlib import pyplot as plt  # noqa: E402
+
+from forgetting.analysis import plot  # noqa: E402
 
 
 @pytest.fixture

@@ -3,9 +3,10 @@
 import json
 
 import dense_gf_rls as dense
-import forgetting as fg
 import numpy as np
 import pytest
+
+import forgetting as fg
 from forgetting.analysis import (
     Record,
     certify,

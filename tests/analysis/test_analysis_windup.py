@@ -5,8 +5,9 @@ import json
 import dense_gf_rls as dense
 import numpy as np
 import pytest
-from forgetting.analysis import Record, certify, windup
 from live_windup import factor_ud, live_alarms
+
+from forgetting.analysis import Record, certify, windup
 
 SAMPLES, DAY = 2000, 500
 

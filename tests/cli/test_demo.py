@@ -5,6 +5,7 @@ from __future__ import annotations
 from importlib.metadata import PackageNotFoundError
 
 import pytest
+
 from forgetting.demo import DEMOS
 from forgetting.demo.outcome import Outcome
 

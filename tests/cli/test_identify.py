@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import json
 
-import forgetting as fg
 import numpy as np
 import pandas as pd
 import pytest
+
+import forgetting as fg
 from forgetting.record import identify
 
 FORMULA = ("--formula", "V ~ lag(V) + I + lag(I)")

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import forgetting as fg
 import pytest
-from forgetting.cli.app import app
 from typer.testing import CliRunner
+
+import forgetting as fg
+from forgetting.cli.app import app
 
 
 def test_lists_the_registry(forgetting):

@@ -16,7 +16,10 @@ BAD_ARGUMENTS = [
     ({"rule": fg.Exponential(0.0)}, r"forgetting_factor = 0, allowed: \(0, 1\]"),
     ({"rule": fg.Subspace(float("nan"))}, r"forgetting_factor = NaN, allowed: \(0, 1\]"),
     ({"rule": fg.Subspace(0.9, threshold=-1)}, r"threshold = -1, allowed: \(0, inf\)"),
-    ({"rule": fg.ExponentialResetting(0.9, information=-2)}, r"information = -2, allowed: \[0, inf\)"),
+    (
+        {"rule": fg.ExponentialResetting(0.9, information=-2)},
+        r"information = -2, allowed: \[0, inf\)",
+    ),
     ({"rule": fg.ExponentialResetting(0.9, information=[1, 2])}, r"information has 2 elements"),
     (
         {"rule": fg.ExponentialResetting(0.9, information=np.diag([1.0, 2, -3]))},
@@ -27,7 +30,10 @@ BAD_ARGUMENTS = [
     ({"initial_covariance": [1, np.inf, 1]}, r"initial_covariance\[1\] = inf"),
     ({"initial_covariance": [1, 2]}, r"initial_covariance has 2 elements, expected 3"),
     ({"initial_covariance": np.ones((3, 3))}, r"initial_covariance is not positive definite"),
-    ({"initial_covariance": np.triu(np.ones((3, 3)))}, r"initial_covariance\[3\] = 0, allowed: a sym"),
+    (
+        {"initial_covariance": np.triu(np.ones((3, 3)))},
+        r"initial_covariance\[3\] = 0, allowed: a sym",
+    ),
     ({"initial_theta": [1, 2]}, r"initial_theta has shape \[2\], expected \(3,\)"),
     ({"initial_theta": [1, 2, np.nan]}, r"initial_theta\[2\] = NaN"),
     ({"dtype": "int32"}, r'dtype = "int32", allowed: "float64", "float32"'),

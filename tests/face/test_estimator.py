@@ -69,7 +69,9 @@ def test_saving_in_the_middle_changes_no_bit(rule, dtype):
 def test_reset_returns_to_the_start(covariance):
     est = fg.RLS(3, rule=fg.Subspace(0.9), initial_covariance=covariance, initial_theta=[1, 2, 3])
     start = est.to_bytes()
-    assert np.allclose(est.covariance, covariance * np.eye(3) if np.ndim(covariance) < 2 else covariance)
+    assert np.allclose(
+        est.covariance, covariance * np.eye(3) if np.ndim(covariance) < 2 else covariance
+    )
     phi, y = record(30, 1, 1)
     est.run(phi, y)
     assert est.to_bytes() != start

@@ -3,6 +3,7 @@
 from collections import Counter
 
 import pytest
+
 from forgetting.papers import all_checks
 
 SEEDS = 30

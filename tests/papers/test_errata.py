@@ -3,6 +3,7 @@
 from collections import Counter
 
 import pytest
+
 from forgetting.papers.errata import ERRATA
 from forgetting.papers.errata.markdown import entry
 

@@ -2,12 +2,13 @@
 
 import csv
 
-import forgetting as fg
 import pytest
+from matplotlib import pyplot as plt
+
+import forgetting as fg
 from forgetting.papers import Check, Claim, all_checks, all_pictures, catalogue
 from forgetting.papers.command import measured, reproduce
 from forgetting.plot import styled
-from matplotlib import pyplot as plt
 
 PICTURES = all_pictures()
 

@@ -4,6 +4,7 @@ from decimal import Decimal, getcontext
 
 import numpy as np
 import pytest
+
 from forgetting.papers.eigenvalues import spectrum
 from forgetting.papers.opd import system as opd
 from forgetting.papers.vdf import systems

@@ -5,9 +5,10 @@ from __future__ import annotations
 import copy
 import pickle
 
-import forgetting as fg
 import numpy as np
 import pytest
+
+import forgetting as fg
 from forgetting.record import identify
 
 

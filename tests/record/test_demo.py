@@ -8,6 +8,7 @@ from importlib.metadata import PackageNotFoundError, distribution
 import numpy as np
 import pandas as pd
 import pytest
+
 from forgetting.demo.packaged import locate
 from forgetting.demo.ride import WINDOW, energy_balance
 from forgetting.demo.tcx import read_tcx

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import forgetting as fg
 import numpy as np
 import pytest
+
+import forgetting as fg
 from forgetting.record import RecordError, identify
 
 

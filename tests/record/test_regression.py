@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import forgetting as fg
 import numpy as np
 import pandas as pd
 import pytest
+
+import forgetting as fg
 from forgetting.record import RecordError, identify, read
 from forgetting.record.regression import regression
 

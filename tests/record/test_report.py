@@ -5,10 +5,11 @@ from __future__ import annotations
 import re
 from html.parser import HTMLParser
 
-import forgetting as fg
 import numpy as np
 import pandas as pd
 import pytest
+
+import forgetting as fg
 from forgetting.record import RecordError, identify
 
 LOADS = {"src", "href", "xlink:href", "data", "poster", "srcset", "action"}
@@ -118,8 +119,9 @@ def test_plot_goes_to_known_files(found, tmp_path):
 
 
 def test_plots_take_and_return_axes(found):
-    from forgetting import plot
     from matplotlib import pyplot as plt
+
+    from forgetting import plot
 
     _, ax = plt.subplots()
     for draw in (plot.prediction, plot.error):

@@ -5,10 +5,11 @@ from __future__ import annotations
 import json
 import math
 
-import forgetting as fg
 import numpy as np
 import pandas as pd
 import pytest
+
+import forgetting as fg
 from forgetting.record import RecordError, identify
 from forgetting.record import read as forgetting_read
 

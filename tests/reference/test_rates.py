@@ -40,6 +40,11 @@ def test_rates_stay_in_their_range_and_move(name: str, case: dict[str, float]) -
     if name == "constant":
         assert set(found) == {case["forgetting_factor"]}
         return
+    if name in ("schedule", "function"):  # the user's own factors, not a clipped design
+        step, start = case.get("step", 0.0), case.get("start", 0.0)
+        own = case.get("factors", [min(1.0, start + step * k) for k in range(len(found))])
+        assert set(found) == set(own)
+        return
     assert min(found) >= case["smallest"]
     assert max(found) <= case["largest"]
     assert len(set(found)) > 3

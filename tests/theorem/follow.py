@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-import forgetting as fg
 import numpy as np
+
+import forgetting as fg
 from reference import precision, rates, rules
 from reference.agreement import skipped_update
 from reference.estimator import Estimator

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-import forgetting as fg
 import numpy as np
+
+import forgetting as fg
 from reference.linalg import matrix, to_float
 
 RULES = {about["name"]: about for about in fg.rules()}

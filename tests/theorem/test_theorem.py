@@ -7,9 +7,10 @@ from __future__ import annotations
 
 import zlib
 
-import forgetting as fg
 import numpy as np
 import pytest
+
+import forgetting as fg
 from reference import rates, rules
 from reference.signals import KINDS, record
 from reference.weighting import CASES as WEIGHTING_CASES

@@ -8,8 +8,8 @@ air resistance:
 which is the time integral of P = m d(v²/2 + g h)/dt + Crr m g v + k v³. Differences over windows
 take the place of derivatives of noisy signals.
 
-Choices, each with its physical ground; they were compared on this ride, so that the estimates' agreement
-with windowed batch fits of the same ride is no independent evidence:
+Choices, each with its physical ground; they were compared on this ride, so that the agreement of
+the estimates with windowed batch fits of the same ride is no independent evidence:
 
 * Altitude is barometric, in steps of 0.2 m, with single glitches: running median of 31 s, then a
   mean of 11 s. Speed at the window's ends: mean of 5 s.

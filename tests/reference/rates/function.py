@@ -1,6 +1,6 @@
 """A function of the user's; here one of the number of used samples.
 
-    lambda_k = min(1, start + step k)
+lambda_k = min(1, start + step k)
 """
 
 from __future__ import annotations

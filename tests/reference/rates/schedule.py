@@ -1,6 +1,6 @@
 """The factors of a list, one a used sample; then the last one for ever, or the list again.
 
-    lambda_k = factors[min(k, N - 1)]   (end = "hold"),   factors[k mod N]   (end = "repeat")
+lambda_k = factors[min(k, N - 1)]   (end = "hold"),   factors[k mod N]   (end = "repeat")
 """
 
 from __future__ import annotations
