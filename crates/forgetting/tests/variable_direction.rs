@@ -4,7 +4,7 @@ mod dense_forms;
 
 use dense_forms::{estimator, record, result, update, Dense, Input, Published, INPUTS};
 use forgetting::rules::VariableDirection;
-use forgetting::{Dynamic, Real};
+use forgetting::{Constant, Dynamic, Equal, Estimator, Prior, Real};
 
 const LAMBDA: f64 = 0.95;
 const VARIANCE: f64 = 10.0;
@@ -62,16 +62,108 @@ fn compare<T: Real>(input: Input, n: usize, p: usize, threshold: f64, samples: u
     worst
 }
 
+/// Measured: 4e-12 in f64, 2e-14 but for one record; 2e-5 in f32.
+const CLOSE: f64 = 1e-11;
+const CLOSE_SINGLE: f64 = 2e-4;
+
 #[test]
 fn equals_the_published_form() {
+    let (mut most, mut most_single) = (0.0f64, 0.0f64);
     for input in INPUTS {
         for n in [1, 2, 4, 8] {
             for p in [1, 2, 3] {
                 for threshold in [1e-3, 0.3] {
                     let found = compare::<f64>(input, n, p, threshold, 300);
-                    println!("{input:?} {n} {p} {threshold} {found:e}");
+                    assert!(found < CLOSE, "{input:?} {n} {p} {threshold}: {found:e}");
+                    most = most.max(found);
                 }
+                let found = compare::<f32>(input, n, p, 1e-3, 300);
+                assert!(found < CLOSE_SINGLE, "{input:?} {n} {p}: {found:e}");
+                most_single = most_single.max(found);
             }
         }
     }
+    println!("f64 {most:e}, f32 {most_single:e}");
+}
+
+/// Over many renewals of the spectrum.
+#[test]
+fn stays_on_the_published_form() {
+    assert!(compare::<f64>(Input::Exciting, 4, 1, 1e-6, 5000) < CLOSE);
+    assert!(compare::<f64>(Input::Silent, 3, 2, 1e-6, 5000) < CLOSE);
+}
+
+/// Eigenvalues that differ by less than the square root of the precision form a cluster; its
+/// directions are decided by the sample, and its eigenvalues not made equal.
+#[test]
+fn clusters_of_nearly_equal_eigenvalues_follow_the_sample() {
+    let variances = [2.0, 2.0 + 4e-9, 2.0 + 9e-9, 5.0, 5.0 + 3e-8];
+    let memory = Dynamic::<f64>::new(5, 2, 1).unwrap();
+    let prior = Prior::diagonal(memory, &variances).unwrap();
+    let rule = VariableDirection::new(1e-3).unwrap();
+    let rate = Constant::new(LAMBDA).unwrap();
+    let mut ours = Estimator::new(rule, rate, Equal::new(), prior);
+    let mut theirs = Published::new(5, 1.0);
+    theirs.covariance = Dense::diagonal(&variances);
+    for (phi, y) in record(Input::Exciting, 20, 5, 2) {
+        update(&mut ours, &phi, &y);
+        let widened = forget(&theirs.covariance, &phi, 1e-3, LAMBDA, f64::EPSILON);
+        theirs.measure(&widened, &phi, &y);
+        let found = result(&ours).1.distance(&theirs.covariance);
+        // the two sides compute the same clusters only if their eigenvalues agree; they do
+        assert!(found < 1e-13, "{found:e}");
+    }
+}
+
+/// With P₀ = c·I nothing but the samples has a direction: turning them turns P.
+#[test]
+fn does_not_depend_on_the_axes() {
+    let n = 4;
+    let (_, turn) = Dense::new(
+        n,
+        n,
+        (0..n * n).map(|k| ((k / n + k % n) as f64).sin() + f64::from(k / n == k % n)).collect(),
+    )
+    .symmetric()
+    .eigen();
+    let memory = Dynamic::<f64>::new(n, 1, 1).unwrap();
+    let rule = VariableDirection::new(1e-3).unwrap();
+    let mut straight = estimator(rule, LAMBDA, memory, VARIANCE);
+    let mut turned = estimator(rule, LAMBDA, memory, VARIANCE);
+    for (phi, y) in record(Input::Exciting, 200, n, 1) {
+        let ranks = (update(&mut straight, &phi, &y), update(&mut turned, &phi.times(&turn), &y));
+        assert_eq!(ranks.0, ranks.1);
+        let back = turn.times(&result(&turned).1).times(&turn.transpose());
+        assert!(back.distance(&result(&straight).1) < 1e-12);
+    }
+}
+
+/// A direction without excitation keeps its information of 1e-9 while the others reach 1e5: a
+/// condition of 1e14, which no inverse of P survives.
+#[test]
+fn what_is_not_excited_is_retained_at_condition_1e14() {
+    let n = 6;
+    let memory = Dynamic::<f64>::new(n, 1, 1).unwrap();
+    let rule = VariableDirection::new(1e-3).unwrap();
+    let mut ours = estimator(rule, 0.9, memory, 1e9);
+    // an orthonormal pair that no sample touches
+    let unseen = [[0.5, 0.5, 0.5, 0.5, 0.0, 0.0], [0.5, -0.5, 0.5, -0.5, 0.0, 0.0]];
+    for (mut phi, _) in record(Input::Exciting, 3000, n, 1) {
+        for v in &unseen {
+            let along: f64 = phi.at.iter().zip(v).map(|(x, v)| x * v).sum();
+            phi.at.iter_mut().zip(v).for_each(|(x, v)| *x -= along * v);
+        }
+        let phi = phi.scaled(100.0);
+        update(&mut ours, &phi, &Dense::new(1, 1, vec![phi.at[4]]));
+    }
+    let (theta, covariance) = result(&ours);
+    for v in &unseen {
+        let v = Dense::new(n, 1, v.to_vec());
+        let variance = v.transpose().times(&covariance.times(&v)).get(0, 0);
+        assert!((variance / 1e9 - 1.0).abs() < 1e-9, "{variance:e}");
+    }
+    let excited =
+        1.0 / ours.factor().information_along(&[0.0, 0.0, 0.0, 0.0, 1.0, 0.0], &mut [0.0; 6]);
+    assert!(excited < 1e-4 && excited > 1e-6, "{excited:e}");
+    assert!((theta.at[4] - 1.0).abs() < 1e-6);
 }

@@ -106,6 +106,10 @@ impl<M: Memory> Forgetting<M> for ConstantTrace<M> {
         Measured(0)
     }
 
+    fn is_bounded(&self) -> bool {
+        true
+    }
+
     fn forget(&self, state: &mut Measured, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         if state.0 == 0 {
             state.0 = 1;
@@ -126,5 +130,26 @@ impl<M: Memory> Forgetting<M> for ConstantTrace<M> {
 impl<T: Real> State<T> for Measured {
     fn visit(&mut self, visitor: &mut dyn Visitor<T>) {
         visitor.whole(&mut self.0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{covariance, forget, memory, Dense};
+
+    #[test]
+    fn holds_the_trace_from_the_second_sample_on() {
+        let (p, phi) = (covariance(), Dense::new(1, &[0.0, 0.0, 0.0]));
+        let memory = memory(&phi, 1);
+        let rule = ConstantTrace::new(2.0, 0.5, memory).unwrap();
+        let mut state = rule.start(memory);
+        let first = forget(&rule, &mut state, &p, &phi, 1.0);
+        assert!(first.covariance.distance(&p) < 1e-15, "the first sample forgets nothing");
+        let second = forget(&rule, &mut state, &p, &phi, 1.0);
+        let trace: f64 = (0..3).map(|i| p.at(i, i)).sum();
+        let floor = Dense::new(3, &[0.5, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.5]);
+        let expected = (4.5 / trace) * p + floor;
+        assert!(second.covariance.distance(&expected) < 1e-14);
     }
 }

@@ -18,7 +18,7 @@
 //!   fails, or R − F is not positive definite beyond the rounding of R, is refused and changes
 //!   nothing.
 //!
-//! Reference: A. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
+//! Reference: B. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
 //! stability and robustness guarantees*, IEEE Transactions on Automatic Control, 2024,
 //! Theorem 1.
 
@@ -229,4 +229,69 @@ impl<M: Memory, C: ForgettingMatrix<M::Real>> Forgetting<M> for Custom<M, C> {
 
 impl<M: Memory> State<M::Real> for Buffers<M> {
     fn visit(&mut self, _: &mut dyn Visitor<M::Real>) {}
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{covariance, forget, memory, two_rows};
+    use crate::{Constant, Dynamic, Equal, Estimator, Prior};
+
+    type Function = fn(&[f64], &[f64], &[f64], &mut [f64]) -> Result<(), Error>;
+
+    #[test]
+    fn takes_away_what_the_function_says() {
+        let (p, phi) = (covariance(), two_rows());
+        let (r, seen) = (p.inverse(), phi.elements.clone());
+        let rule = Custom::new(move |given: &[f64], phi: &[f64], error: &[f64], f: &mut [f64]| {
+            assert!(given.iter().zip(&r.elements).all(|(x, y)| (x - y).abs() < 1e-13));
+            assert_eq!((phi, error), (&seen[..], &[2.0, 2.0][..]));
+            f.iter_mut().zip(given).for_each(|(f, r)| *f = 0.25 * r);
+            Ok(())
+        });
+        let memory = memory(&phi, 1);
+        let mut state = rule.start(memory);
+        let found = forget(&rule, &mut state, &p, &phi, 1.0);
+        assert!(found.covariance.distance(&((4.0 / 3.0) * p)) < 1e-14);
+    }
+
+    #[test]
+    fn what_is_not_admissible_is_refused_and_changes_no_bit() {
+        let all: Function = |r, _, _, f| {
+            f.copy_from_slice(r);
+            Ok(())
+        };
+        let lopsided: Function = |_, _, _, f| {
+            f[1] = 1e-3;
+            Ok(())
+        };
+        let not_a_number: Function = |_, _, _, f| {
+            f[3] = f64::NAN;
+            Ok(())
+        };
+        let failing: Function = |_, _, _, _| Err(Error::Function { parameter: "f" });
+        let memory = Dynamic::<f64>::new(2, 1, 1).unwrap();
+        for function in [all, lopsided, not_a_number, failing] {
+            let prior = Prior::scalar(memory, 3.0).unwrap();
+            let rate = Constant::new(1.0).unwrap();
+            let mut estimator = Estimator::new(Custom::new(function), rate, Equal::new(), prior);
+            match estimator.update(&[1.0, 2.0], &[1.0]).unwrap_err() {
+                Error::Indefinite { .. } | Error::Value { .. } => {}
+                other => assert_eq!(other, Error::Function { parameter: "f" }),
+            }
+            assert_eq!((estimator.theta(), estimator.samples()), (&[0.0, 0.0][..], 0));
+            assert_eq!(estimator.factor().diagonal_elements(), [3.0, 3.0]);
+        }
+    }
+
+    #[test]
+    fn zero_forgets_nothing_to_the_bit() {
+        let (p, phi) = (covariance(), two_rows());
+        let nothing: Function = |_, _, _, _| Ok(());
+        let rule = Custom::<Dynamic<f64>, _>::new(nothing);
+        let found = forget(&rule, &mut rule.start(memory(&phi, 1)), &p, &phi, 1.0);
+        let none = crate::NoForgetting::new();
+        let other = forget(&none, &mut (), &p, &phi, 1.0);
+        assert_eq!(found.covariance.elements, other.covariance.elements);
+    }
 }

@@ -95,7 +95,7 @@ impl<M: Memory> MatrixForgetting<M> {
             return Err(Error::value(INFORMATION.name, information.to_f64(), "within range"));
         }
         POWER.check(power as f64)?;
-        if power % 2 == 0 {
+        if power.is_multiple_of(2) {
             return Err(Error::value(POWER.name, power as f64, POWER.range.words));
         }
         let root = Root::scalar(&INFORMATION, information, memory)?;
@@ -115,6 +115,7 @@ impl<M: Memory> MatrixForgetting<M> {
     }
 
     /// bᴺ for the eigenvalue r of R.
+    #[inline]
     fn share(&self, r: M::Real) -> M::Real {
         let base = match self.shift {
             None => M::Real::ONE - self.information / r,
@@ -124,6 +125,7 @@ impl<M: Memory> MatrixForgetting<M> {
     }
 
     /// Forgets along eigenvector i.
+    #[inline]
     fn forget_along(&self, spectrum: &mut Spectrum<M>, step: &mut Step<'_, '_, M>, i: usize) {
         let r = spectrum.information()[i];
         let lost = (M::Real::ONE - step.forgetting_factor) * self.share(r);
@@ -166,6 +168,11 @@ impl<M: Memory> Forgetting<M> for MatrixForgetting<M> {
         Spectrum::new(memory)
     }
 
+    fn is_bounded(&self) -> bool {
+        true
+    }
+
+    #[inline]
     fn forget(
         &self,
         spectrum: &mut Spectrum<M>,
@@ -190,5 +197,55 @@ impl<M: Memory> Forgetting<M> for MatrixForgetting<M> {
             spectrum.learn(step.sample.row(i));
         }
         Ok(Forgotten::rank(if forgets { n } else { 0 }))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{covariance, forget, memory, Dense};
+
+    #[test]
+    fn each_eigenvalue_follows_its_function() {
+        let p = Dense::new(2, &[0.25, 0.0, 0.0, 2.0]); // R = diag(4, 0.5)
+        let phi = Dense::new(1, &[0.0, 1.0]);
+        let memory = memory(&phi, 1);
+        let rule = MatrixForgetting::new(1.0, 3, memory).unwrap();
+        let found = forget(&rule, &mut rule.start(memory), &p, &phi, 0.5);
+        // 4 − ½ (3/4)³ 4 and ½ + ½ (2 − 1)³ ½
+        let (strong, weak): (f64, f64) = (4.0 - 27.0 / 32.0, 0.75);
+        let expected = Dense::new(2, &[1.0 / strong, 0.0, 0.0, 1.0 / weak]);
+        assert!(found.covariance.distance(&expected) < 1e-15);
+        let rule = rule.with_shift(0.5).unwrap();
+        let found = forget(&rule, &mut rule.start(memory), &p, &phi, 0.5);
+        // 4 − ½ (3/4.5)³ 4 and ½ + ½ (½/1)³ ½
+        let (strong, weak) = (4.0 - 2.0 * (2.0f64 / 3.0).powi(3), 0.5 + 0.25 / 8.0);
+        let expected = Dense::new(2, &[1.0 / strong, 0.0, 0.0, 1.0 / weak]);
+        assert!(found.covariance.distance(&expected) < 1e-15);
+    }
+
+    #[test]
+    fn power_one_is_exponential_resetting_bit_for_bit() {
+        let (p, phi) = (covariance(), Dense::new(1, &[0.8, -0.2, 1.1]));
+        let memory = memory(&phi, 1);
+        let rule = MatrixForgetting::new(0.3, 1, memory).unwrap();
+        let ours = forget(&rule, &mut rule.start(memory), &p, &phi, 0.9);
+        let root = Root::scalar(&INFORMATION, 0.3, memory).unwrap();
+        let other = ExponentialResetting::new(root);
+        let theirs = forget(&other, &mut (), &p, &phi, 0.9);
+        assert_eq!(ours.covariance.elements, theirs.covariance.elements);
+    }
+
+    #[test]
+    fn even_powers_and_a_shift_without_choice_2_are_refused() {
+        struct Shift;
+        impl Values for Shift {
+            fn get(&self, name: &str) -> Option<Value<'_>> {
+                (name == "shift").then_some(Value::Real(1.0))
+            }
+        }
+        let memory = crate::Dynamic::<f64>::new(2, 1, 1).unwrap();
+        assert!(MatrixForgetting::new(0.3, 2, memory).is_err());
+        assert!(MatrixForgetting::configure(&Shift, memory).is_err());
     }
 }

@@ -24,11 +24,11 @@
 //!
 //! Reference: A. Vahidi, A. Stefanopoulou, H. Peng, *Recursive least squares with forgetting for
 //! online estimation of vehicle mass and road grade: theory and experiments*, Vehicle System
-//! Dynamics 43, 2005; A. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
+//! Dynamics 43, 2005; B. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
 //! stability and robustness guarantees*, IEEE Transactions on Automatic Control, 2024, V-J.
 
 use super::{About, Claim, Forgetting, Forgotten, Step};
-use crate::factor::kernel::{add_scaled, bierman, dot};
+use crate::factor::kernel::{self, add_scaled, bierman, dot, length, set_identity};
 use crate::parameter::{Kind, Parameter, Range, Value, Values};
 use crate::state::{State, Visitor};
 use crate::{Error, Factor, Memory, Real};
@@ -127,6 +127,7 @@ impl<M: Memory> Multiple<M> {
     }
 
     /// Each block: its first parameter, its size and its factor.
+    #[inline]
     fn blocks(&self) -> impl Iterator<Item = (usize, usize, M::Real)> + '_ {
         let sizes = self.sizes.as_ref()[..self.count].iter().map(|size| size.to_f64() as usize);
         sizes.zip(self.factors.as_ref()).scan(0, |start, (size, &factor)| {
@@ -157,8 +158,8 @@ impl<M: Memory> Blocks<M> {
     fn start_block(&mut self, factor: &Factor<M>, start: usize, size: usize, offset: usize) {
         let n = factor.parameters();
         let rows = &mut self.work.as_mut()[..size * n];
-        let columns = &mut self.columns.as_mut()[offset..offset + size * (size - 1) / 2];
-        columns.fill(M::Real::ZERO);
+        let columns = &mut self.columns.as_mut()[offset..offset + length(size)];
+        set_identity(columns, size);
         for t in 0..size {
             let (done, row) = rows.split_at_mut(t * n);
             let row = &mut row[..n];
@@ -168,7 +169,7 @@ impl<M: Memory> Blocks<M> {
             for (x, &d) in row.iter_mut().zip(factor.diagonal_elements()) {
                 *x /= d.sqrt();
             }
-            let (before, column) = columns.split_at_mut(t * t.saturating_sub(1) / 2);
+            let (before, column) = columns.split_at_mut(kernel::start(t));
             for (u, q) in done.chunks_exact(n).enumerate() {
                 let share = dot(q, row) / dot(q, q);
                 add_scaled(row, -share, q);
@@ -210,6 +211,7 @@ impl<M: Memory> Forgetting<M> for Multiple<M> {
         Blocks { columns, diagonal, started: 0, work: memory.square() }
     }
 
+    #[inline]
     fn forget(&self, state: &mut Blocks<M>, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         let least = self.blocks().fold(M::Real::ONE, |least, (_, _, lambda)| least.min(lambda));
         // R_bb⁻¹ ≤ P_bb, so that P̄ is at most P/λ of the smallest λ
@@ -218,14 +220,14 @@ impl<M: Memory> Forgetting<M> for Multiple<M> {
             let mut offset = 0;
             for (start, size, _) in self.blocks() {
                 state.start_block(step.factor, start, size, offset);
-                offset += size * (size - 1) / 2;
+                offset += length(size);
             }
             state.started = 1;
         }
         step.factor.clear_columns();
         let mut offset = 0;
         for (start, size, lambda) in self.blocks() {
-            let columns = &mut state.columns.as_mut()[offset..offset + size * (size - 1) / 2];
+            let columns = &mut state.columns.as_mut()[offset..offset + length(size)];
             let diagonal = &mut state.diagonal.as_mut()[start..start + size];
             diagonal.iter_mut().for_each(|d| *d = (*d / lambda).min(M::Real::CEILING));
             step.factor.put_block(start, columns, diagonal);
@@ -244,5 +246,38 @@ impl<M: Memory> State<M::Real> for Blocks<M> {
         visitor.reals(self.columns.as_mut());
         visitor.reals(self.diagonal.as_mut());
         visitor.whole(&mut self.started);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{covariance, forget, memory, Dense};
+
+    #[test]
+    fn keeps_the_discounted_blocks_and_nothing_between_them() {
+        let (p, phi) = (covariance(), Dense::new(1, &[0.8, -0.2, 1.1]));
+        let memory = memory(&phi, 1);
+        let rule = Multiple::new(&[0.9, 0.5], &[2, 1], memory).unwrap();
+        let found = forget(&rule, &mut rule.start(memory), &p, &phi, 1.0);
+        let r = p.inverse();
+        let kept = |i: usize, j: usize| match (i < 2, j < 2) {
+            (true, true) => 0.9 * r.at(i, j),
+            (false, false) => 0.5 * r.at(i, j),
+            _ => 0.0,
+        };
+        let kept: alloc::vec::Vec<f64> = (0..9).map(|k| kept(k / 3, k % 3)).collect();
+        assert!(found.covariance.inverse().distance(&Dense::new(3, &kept)) < 1e-14);
+    }
+
+    #[test]
+    fn blocks_must_add_up() {
+        let memory = crate::Dynamic::<f64>::new(3, 1, 1).unwrap();
+        for blocks in [&[1, 1][..], &[2, 2], &[0, 3], &[4]] {
+            let factors = [0.9; 2];
+            assert!(Multiple::new(&factors[..blocks.len()], blocks, memory).is_err());
+        }
+        assert!(Multiple::new(&[0.9, 1.1], &[1, 2], memory).is_err());
+        assert!(Multiple::new(&[0.9], &[1, 2], memory).is_err());
     }
 }

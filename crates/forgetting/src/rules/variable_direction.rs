@@ -78,6 +78,7 @@ impl<M: Memory> VariableDirection<M> {
 
     /// Marks the excited eigenvectors with 1 in `work.second`, and forgets along those of
     /// uneven clusters; returns the number of excited ones and of those dealt with.
+    #[inline]
     fn find(&self, spectrum: &mut Spectrum<M>, step: &mut Step<'_, '_, M>) -> (usize, usize) {
         let n = step.factor.parameters();
         let growth = M::Real::ONE / step.forgetting_factor;
@@ -111,6 +112,7 @@ impl<M: Memory> VariableDirection<M> {
 }
 
 /// Forgets along the eigenvectors marked in `work.second`, each alone in its cluster.
+#[inline]
 fn forget_marked<M: Memory>(
     spectrum: &mut Spectrum<M>,
     step: &mut Step<'_, '_, M>,
@@ -151,6 +153,7 @@ impl<M: Memory> Forgetting<M> for VariableDirection<M> {
         Spectrum::new(memory)
     }
 
+    #[inline]
     fn forget(
         &self,
         spectrum: &mut Spectrum<M>,
@@ -177,5 +180,55 @@ impl<M: Memory> Forgetting<M> for VariableDirection<M> {
             spectrum.learn(step.sample.row(i));
         }
         Ok(Forgotten::rank(rank))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{covariance, forget, memory, Dense};
+
+    fn rule() -> VariableDirection<crate::Dynamic<f64>> {
+        VariableDirection::new(1e-3).unwrap()
+    }
+
+    #[test]
+    fn only_excited_eigenvectors_lose_information() {
+        let p = Dense::new(2, &[2.0, 0.0, 0.0, 8.0]);
+        let phi = Dense::new(1, &[3.0, 1e-3]); // at the threshold is not above it
+        let mut state = rule().start(memory(&phi, 1));
+        let found = forget(&rule(), &mut state, &p, &phi, 0.5);
+        assert_eq!(found.covariance.elements, [4.0, 0.0, 0.0, 8.0]);
+        assert_eq!(found.forgotten.rank, 1);
+    }
+
+    #[test]
+    fn of_equal_eigenvalues_the_direction_of_the_sample_is_forgotten() {
+        let p = Dense::new(2, &[2.0, 0.0, 0.0, 2.0]);
+        let phi = Dense::new(1, &[3.0, 4.0]);
+        let mut state = rule().start(memory(&phi, 1));
+        let found = forget(&rule(), &mut state, &p, &phi, 0.5);
+        // 2 I + 2 v vᵀ with v = (0.6, 0.8)
+        let expected = Dense::new(2, &[2.72, 0.96, 0.96, 3.28]);
+        assert!(found.covariance.distance(&expected) < 1e-15);
+        assert_eq!(found.forgotten.rank, 1);
+    }
+
+    #[test]
+    fn where_all_are_excited_it_is_exponential() {
+        let (p, phi) = (covariance(), Dense::new(1, &[0.8, -0.2, 1.1]));
+        let mut state = rule().start(memory(&phi, 1));
+        let found = forget(&rule(), &mut state, &p, &phi, 0.9);
+        assert!(found.covariance.distance(&((1.0 / 0.9) * p)) < 1e-15);
+        assert_eq!(found.forgotten.rank, 3);
+    }
+
+    #[test]
+    fn factor_one_forgets_nothing() {
+        let (p, phi) = (covariance(), Dense::new(1, &[0.8, -0.2, 1.1]));
+        let mut state = rule().start(memory(&phi, 1));
+        let found = forget(&rule(), &mut state, &p, &phi, 1.0);
+        assert!(found.covariance.distance(&p) < 1e-15);
+        assert_eq!(found.forgotten.rank, 0);
     }
 }
