@@ -35,6 +35,7 @@ mod memory;
 pub mod monitor;
 pub mod parameter;
 mod prior;
+mod range;
 pub mod rates;
 mod real;
 mod root;
