@@ -95,7 +95,7 @@ impl<M: Memory> MatrixForgetting<M> {
             return Err(Error::value(INFORMATION.name, information.to_f64(), "within range"));
         }
         POWER.check(power as f64)?;
-        if power % 2 == 0 {
+        if power.is_multiple_of(2) {
             return Err(Error::value(POWER.name, power as f64, POWER.range.words));
         }
         let root = Root::scalar(&INFORMATION, information, memory)?;
