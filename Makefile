@@ -28,7 +28,7 @@ lint: build
 	$(BIN)/mypy
 
 rust:
-	cargo test --package forgetting --quiet
+	cargo test --package forgetting --package forgetting-cpu --quiet
 
 python: build
 	$(BIN)/pytest
@@ -46,6 +46,10 @@ $(VENV)/ready: pyproject.toml
 
 stubs: build
 	$(BIN)/python tools/generate.py
+
+docs: build
+	$(PIP) install sphinx myst-parser sphinx-gallery furo
+	$(BIN)/sphinx-build -W -b html docs docs/_build
 
 bench: build
 	$(BIN)/python -m benchmarks --quick

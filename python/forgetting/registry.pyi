@@ -171,8 +171,8 @@ class CovarianceResetting(Rule):
       and v the mean of u over the samples before (over the last M or so once there are that many):
       from k = M on, g ← max(0, g + u/v − 1 − d), met if g > h, and then g ← 0. u/v does not depend
       on the scale of the noise. With the defaults and Gaussian noise, one target and one row, a
-      false alarm comes about once in 35 000 samples, and innovations whose variance suddenly is
-      ten times as large are found after 4 samples on average.
+      false alarm comes about once in 40 000 samples, and innovations whose variance suddenly is
+      ten times as large are found after 4 to 5 samples on average.
 
     At a reset the rule still chooses what is measured, and its own state goes on. A sample that
     it skips is skipped, and the criterion does not see it. The forgetting factor is the rule's.
@@ -224,7 +224,7 @@ class Custom(Rule):
       fails, or R − F is not positive definite beyond the rounding of R, is refused and changes
       nothing.
 
-    Reference: A. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
+    Reference: B. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
     stability and robustness guarantees*, IEEE Transactions on Automatic Control, 2024,
     Theorem 1.
     """
@@ -261,7 +261,7 @@ class CyclicResetting(Rule):
     - Use it in the place of `exponential_resetting` when n is large. With λ_k that varies within
       a cycle the inserted weights are those of each sample's λ_k, and the cycle is approximate.
 
-    Reference: A. Lai, D. S. Bernstein, *Exponential resetting and cyclic resetting recursive
+    Reference: B. Lai, D. S. Bernstein, *Exponential resetting and cyclic resetting recursive
     least squares*, IEEE Control Systems Letters 7, 2023.
     """
 
@@ -788,7 +788,7 @@ class Multiple(Rule):
 
     Reference: A. Vahidi, A. Stefanopoulou, H. Peng, *Recursive least squares with forgetting for
     online estimation of vehicle mass and road grade: theory and experiments*, Vehicle System
-    Dynamics 43, 2005; A. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
+    Dynamics 43, 2005; B. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
     stability and robustness guarantees*, IEEE Transactions on Automatic Control, 2024, V-J.
     """
 

@@ -86,8 +86,9 @@ class Race:
             dtype=setting.dtype,
         )
         module = rules.load(setting.rule)
-        # a list of factors belongs to the rule; the rate then reports nothing of them
-        self.rated = module.RATED and not isinstance(case.get("forgetting_factor"), list)
+        # factors that belong to the rule, or to the rule inside it, are not the rate's to report
+        own = isinstance(case.get("forgetting_factor"), list)
+        self.rated = product.RULES[setting.rule]["forgetting_factor"] and not own
         adaptive = rates.load(rate).Rate(**values) if module.RATED else None
         weighting = WEIGHTINGS[robust](**limits)
         self.dense = Estimator(n, module.Dense(n, **case), adaptive, weighting, targets, COVARIANCE)

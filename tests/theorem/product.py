@@ -16,8 +16,11 @@ WEIGHTINGS = {about["name"]: about for about in fg.weightings()}
 def rule(name: str, case: Mapping[str, object], factor: object) -> fg.Rule:
     """The package's rule for a reference's parameter set; ``factor`` is a float or a rate."""
     values = dict(case)
-    if "function" in values:
-        values["function"] = _plain(values["function"])
+    if name == "custom":
+        values["forgetting_matrix"] = _plain(values.pop("function"))
+    if name == "multiple":  # whose factors are its own, a rate cannot set them
+        alike = getattr(factor, "parameters", {}).get("forgetting_factor", factor)
+        values["factors"] = values.pop("forgetting_factor", alike)
     if "rule" in values:  # (name, parameters) of an inner rule
         inner, parameters = values["rule"]
         values["rule"] = rule(inner, parameters, factor)
@@ -28,12 +31,15 @@ def rule(name: str, case: Mapping[str, object], factor: object) -> fg.Rule:
 
 def _plain(function: Callable[[object, object], object]) -> Callable[..., np.ndarray]:
     """A reference's F (of 256-bit matrices) for arrays."""
-    return lambda information, phi: to_float(
+    return lambda information, phi, error: to_float(
         function(matrix(np.asarray(information)), matrix(np.atleast_2d(phi)))
     )
 
 
 def rate(name: str, case: Mapping[str, object]) -> fg.Rate:
+    if name == "function":
+        start, step = case["start"], case["step"]
+        return fg.Function(lambda evidence: min(1.0, start + step * evidence.samples))
     return getattr(fg, RATES[name]["type_name"])(**case)
 
 

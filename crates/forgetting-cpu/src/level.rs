@@ -92,50 +92,37 @@ pub(crate) fn run<T: Vectors, K: Kernel<T>>(kernel: K) -> K::Output {
     match level() {
         // SAFETY: the level says that the machine has AVX-512 F, DQ and VL, AVX2 and FMA
         Level::Wide if kernel.size() >= WIDE_FROM => unsafe { run_wide(kernel) },
-        Level::Baseline => kernel.run::<T::Lanes, 2>(),
+        Level::Baseline => run_baseline(kernel),
         // SAFETY: the level says that the machine has AVX2 and FMA
         _ => unsafe { run_fused(kernel) },
     }
 }
 
+// each once for all places that call it
+
+#[cfg(target_arch = "x86_64")]
+#[inline(never)]
+fn run_baseline<T: Vectors, K: Kernel<T>>(kernel: K) -> K::Output {
+    kernel.run::<T::Lanes, 2>()
+}
+
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma,avx512f,avx512dq,avx512vl")]
+#[inline(never)]
 fn run_wide<T: Vectors, K: Kernel<T>>(kernel: K) -> K::Output {
     kernel.run::<T::Wide, 8>()
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
+#[inline(never)]
 fn run_fused<T: Vectors, K: Kernel<T>>(kernel: K) -> K::Output {
     kernel.run::<T::Fused, 4>()
 }
 
 /// Runs `kernel`: every aarch64 has NEON and fused multiply-add.
-#[inline(always)]
+#[inline(never)]
 #[cfg(not(target_arch = "x86_64"))]
 pub(crate) fn run<T: Real, K: Kernel<T>>(kernel: K) -> K::Output {
     kernel.run::<T::Lanes, 4>()
-}
-
-/// A loop over samples, as a value.
-pub trait Work {
-    /// what it returns
-    type Output;
-    /// The loop; to be marked `#[inline(always)]`, as what it calls.
-    fn run(self) -> Self::Output;
-}
-
-/// Runs `work` with fused multiply-add in all that is inlined into it, if the machine has it.
-#[inline(always)]
-pub fn whole_loop<W: Work>(work: W) -> W::Output {
-    #[cfg(target_arch = "x86_64")]
-    if level() >= Level::Fused {
-        #[target_feature(enable = "avx2,fma")]
-        fn with<W: Work>(work: W) -> W::Output {
-            work.run()
-        }
-        // SAFETY: the level says that the machine has AVX2 and FMA
-        return unsafe { with(work) };
-    }
-    work.run()
 }

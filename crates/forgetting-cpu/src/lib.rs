@@ -12,4 +12,4 @@ mod level;
 mod x86;
 
 pub use fused::Fused;
-pub use level::{level, whole_loop, Level, Work};
+pub use level::{level, Level, VARIABLE};

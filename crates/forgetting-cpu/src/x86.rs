@@ -38,9 +38,46 @@ macro_rules! at_mut {
     };
 }
 
+/// The first `count` of eight lanes.
+#[inline(always)]
+fn mask(count: usize) -> u8 {
+    debug_assert!(count <= HALF);
+    ((1u32 << (count & 15)) - 1) as u8
+}
+
+/// Ones, then zeros: a window of eight that starts `count` before the middle has `count` ones.
+const WINDOW64: [i64; 16] = [-1, -1, -1, -1, -1, -1, -1, -1, 0, 0, 0, 0, 0, 0, 0, 0];
+const WINDOW32: [i32; 16] = [-1, -1, -1, -1, -1, -1, -1, -1, 0, 0, 0, 0, 0, 0, 0, 0];
+
+#[inline(always)]
+fn window<T>(numbers: &[T; 16], count: usize) -> &[T; 8] {
+    match numbers[HALF - count..].first_chunk() {
+        Some(window) => window,
+        None => unreachable!("a window of eight fits, as count is at most eight"),
+    }
+}
+
+/// # Safety
+/// The machine has AVX.
+#[inline(always)]
+unsafe fn masks64(count: usize) -> (__m256i, __m256i) {
+    let lanes = window(&WINDOW64, count).as_ptr();
+    // SAFETY: both halves of eight numbers; the instructions by the caller's promise
+    unsafe { (_mm256_loadu_si256(lanes.cast()), _mm256_loadu_si256(lanes.add(4).cast())) }
+}
+
+/// # Safety
+/// The machine has AVX.
+#[inline(always)]
+unsafe fn masks32(count: usize) -> __m256i {
+    // SAFETY: eight numbers; the instructions by the caller's promise
+    unsafe { _mm256_loadu_si256(window(&WINDOW32, count).as_ptr().cast()) }
+}
+
 // SAFETY, for every `unsafe` below: the machine has the instructions (see the head of this
 // file), `Fused` has the layout of its number, and the addresses are those of arrays of at least
-// as many numbers as are read or written; loads and stores need no alignment.
+// as many numbers as are read or written (lanes that a mask leaves out are not touched);
+// loads and stores need no alignment.
 
 impl Vector<Fused<f64>> for Wide<__m512d> {
     #[inline(always)]
@@ -52,12 +89,20 @@ impl Vector<Fused<f64>> for Wide<__m512d> {
         Self(unsafe { _mm512_loadu_pd(at!(chunk, f64, 0)) })
     }
     #[inline(always)]
+    fn load_first(first: &[Fused<f64>]) -> Self {
+        Self(unsafe { _mm512_maskz_loadu_pd(mask(first.len()), at!(first, f64, 0)) })
+    }
+    #[inline(always)]
     fn load_half(half: &[Fused<f64>; HALF]) -> Self {
         Self::load(half)
     }
     #[inline(always)]
     fn store(self, chunk: &mut [Fused<f64>; 8]) {
         unsafe { _mm512_storeu_pd(at_mut!(chunk, f64, 0), self.0) }
+    }
+    #[inline(always)]
+    fn store_first(self, first: &mut [Fused<f64>]) {
+        unsafe { _mm512_mask_storeu_pd(at_mut!(first, f64, 0), mask(first.len()), self.0) }
     }
     #[inline(always)]
     fn store_half(self, half: &mut [Fused<f64>; HALF]) {
@@ -87,6 +132,16 @@ impl Vector<Fused<f64>> for Pair<__m256d> {
         unsafe { Self(_mm256_loadu_pd(at!(chunk, f64, 0)), _mm256_loadu_pd(at!(chunk, f64, 4))) }
     }
     #[inline(always)]
+    fn load_first(first: &[Fused<f64>]) -> Self {
+        unsafe {
+            let (low, high) = masks64(first.len());
+            Self(
+                _mm256_maskload_pd(at!(first, f64, 0), low),
+                _mm256_maskload_pd(at!(first, f64, 0).wrapping_add(4), high),
+            )
+        }
+    }
+    #[inline(always)]
     fn load_half(half: &[Fused<f64>; HALF]) -> Self {
         Self::load(half)
     }
@@ -95,6 +150,14 @@ impl Vector<Fused<f64>> for Pair<__m256d> {
         unsafe {
             _mm256_storeu_pd(at_mut!(chunk, f64, 0), self.0);
             _mm256_storeu_pd(at_mut!(chunk, f64, 4), self.1);
+        }
+    }
+    #[inline(always)]
+    fn store_first(self, first: &mut [Fused<f64>]) {
+        unsafe {
+            let (low, high) = masks64(first.len());
+            _mm256_maskstore_pd(at_mut!(first, f64, 0), low, self.0);
+            _mm256_maskstore_pd(at_mut!(first, f64, 0).wrapping_add(4), high, self.1);
         }
     }
     #[inline(always)]
@@ -132,12 +195,21 @@ impl Vector<Fused<f32>> for Wide<__m512> {
         Self(unsafe { _mm512_loadu_ps(at!(chunk, f32, 0)) })
     }
     #[inline(always)]
+    fn load_first(first: &[Fused<f32>]) -> Self {
+        Self(unsafe { _mm512_maskz_loadu_ps(mask(first.len()).into(), at!(first, f32, 0)) })
+    }
+    #[inline(always)]
     fn load_half(half: &[Fused<f32>; HALF]) -> Self {
         Self(unsafe { _mm512_zextps256_ps512(_mm256_loadu_ps(at!(half, f32, 0))) })
     }
     #[inline(always)]
     fn store(self, chunk: &mut [Fused<f32>; 16]) {
         unsafe { _mm512_storeu_ps(at_mut!(chunk, f32, 0), self.0) }
+    }
+    #[inline(always)]
+    fn store_first(self, first: &mut [Fused<f32>]) {
+        let lanes = mask(first.len()).into();
+        unsafe { _mm512_mask_storeu_ps(at_mut!(first, f32, 0), lanes, self.0) }
     }
     #[inline(always)]
     fn store_half(self, half: &mut [Fused<f32>; HALF]) {
@@ -167,6 +239,13 @@ impl Vector<Fused<f32>> for Pair<__m256> {
         unsafe { Self(_mm256_loadu_ps(at!(chunk, f32, 0)), _mm256_loadu_ps(at!(chunk, f32, 8))) }
     }
     #[inline(always)]
+    fn load_first(first: &[Fused<f32>]) -> Self {
+        unsafe {
+            let lanes = masks32(first.len());
+            Self(_mm256_maskload_ps(at!(first, f32, 0), lanes), _mm256_setzero_ps())
+        }
+    }
+    #[inline(always)]
     fn load_half(half: &[Fused<f32>; HALF]) -> Self {
         unsafe { Self(_mm256_loadu_ps(at!(half, f32, 0)), _mm256_setzero_ps()) }
     }
@@ -176,6 +255,10 @@ impl Vector<Fused<f32>> for Pair<__m256> {
             _mm256_storeu_ps(at_mut!(chunk, f32, 0), self.0);
             _mm256_storeu_ps(at_mut!(chunk, f32, 8), self.1);
         }
+    }
+    #[inline(always)]
+    fn store_first(self, first: &mut [Fused<f32>]) {
+        unsafe { _mm256_maskstore_ps(at_mut!(first, f32, 0), masks32(first.len()), self.0) }
     }
     #[inline(always)]
     fn store_half(self, half: &mut [Fused<f32>; HALF]) {

@@ -1,7 +1,9 @@
 //! NumPy arrays as slices of numbers, without a copy where type and layout allow it.
 
 use crate::errors::invalid;
+use bytemuck::{TransparentWrapper, TransparentWrapperAlloc};
 use forgetting::Real;
+use forgetting_cpu::Fused;
 use numpy::{Element, IxDyn, PyArray, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -10,19 +12,62 @@ use pyo3::types::PyFloat;
 /// Anything that NumPy can make an array of.
 pub type Array<'a, 'py> = &'a Bound<'py, PyAny>;
 
-/// A number type that NumPy knows by this name.
-pub trait Number: Real + Element {
-    /// the name of the dtype
+/// What an array of NumPy can be made of.
+pub trait Stored: Sized {
+    /// the same number, as NumPy knows it
+    type Element: Element + Copy;
+    /// The same numbers, for NumPy.
+    fn peel(numbers: Vec<Self>) -> Vec<Self::Element>;
+}
+
+/// A number type to compute with.
+pub trait Number: Real + Stored {
+    /// the name of NumPy's type
     const DTYPE: &'static str;
+    /// NumPy's numbers, to compute with.
+    fn wrap(numbers: &[Self::Element]) -> &[Self];
 }
 
-impl Number for f64 {
-    const DTYPE: &'static str = "float64";
+macro_rules! plain {
+    ($($type:ty),*) => {$(
+        impl Stored for $type {
+            type Element = Self;
+            fn peel(numbers: Vec<Self>) -> Vec<Self> {
+                numbers
+            }
+        }
+    )*};
 }
+plain!(f64, f32, i64, u8, bool);
 
-impl Number for f32 {
-    const DTYPE: &'static str = "float32";
+macro_rules! number {
+    ($float:ty, $name:literal) => {
+        impl Number for $float {
+            const DTYPE: &'static str = $name;
+            #[inline(always)]
+            fn wrap(numbers: &[Self]) -> &[Self] {
+                numbers
+            }
+        }
+
+        impl Stored for Fused<$float> {
+            type Element = $float;
+            fn peel(numbers: Vec<Self>) -> Vec<$float> {
+                Self::peel_vec(numbers)
+            }
+        }
+
+        impl Number for Fused<$float> {
+            const DTYPE: &'static str = $name;
+            #[inline(always)]
+            fn wrap(numbers: &[$float]) -> &[Self] {
+                Self::wrap_slice(numbers)
+            }
+        }
+    };
 }
+number!(f64, "float64");
+number!(f32, "float32");
 
 /// An array of `T` in C order: the one given, or a converted copy of it.
 ///
@@ -31,8 +76,8 @@ impl Number for f32 {
 pub fn contiguous<'py, T: Number>(
     name: &str,
     values: &Bound<'py, PyAny>,
-) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
-    if let Ok(array) = values.cast::<PyArray<T, IxDyn>>() {
+) -> PyResult<Bound<'py, PyArrayDyn<T::Element>>> {
+    if let Ok(array) = values.cast::<PyArray<T::Element, IxDyn>>() {
         if array.is_c_contiguous() {
             return Ok(array.clone());
         }
@@ -46,7 +91,7 @@ pub fn contiguous<'py, T: Number>(
         .bind(py)
         .call1((values, T::DTYPE, "C"))
         .map_err(|error| invalid(format!("{name} must hold numbers ({error})")))?;
-    Ok(array.cast_into::<PyArray<T, IxDyn>>()?)
+    Ok(array.cast_into::<PyArray<T::Element, IxDyn>>()?)
 }
 
 /// Calls `use_slice` with the numbers of `values`: of an array of `T` in C order without a copy,
@@ -60,10 +105,10 @@ pub fn with_slice<T: Number, R>(
     values: &Bound<'_, PyAny>,
     use_slice: impl FnOnce(&[T]) -> PyResult<R>,
 ) -> PyResult<R> {
-    if let Ok(array) = values.cast::<PyArray<T, IxDyn>>() {
+    if let Ok(array) = values.cast::<PyArray<T::Element, IxDyn>>() {
         if array.is_c_contiguous() {
             // SAFETY: the interpreter is held and no Python code runs while the slice lives
-            return use_slice(unsafe { array.as_slice() }?);
+            return use_slice(T::wrap(unsafe { array.as_slice() }?));
         }
     }
     if let Ok(number) = values.cast::<PyFloat>() {
@@ -71,7 +116,7 @@ pub fn with_slice<T: Number, R>(
     }
     let array = contiguous::<T>(name, values)?;
     // SAFETY: as above
-    use_slice(unsafe { array.as_slice() }?)
+    use_slice(T::wrap(unsafe { array.as_slice() }?))
 }
 
 /// The numbers of `values`, copied.
@@ -83,10 +128,10 @@ pub fn owned<T: Number>(name: &str, values: &Bound<'_, PyAny>) -> PyResult<Vec<T
 }
 
 /// `values` as an array of this shape.
-pub fn shaped<'py, T: Element>(
+pub fn shaped<'py, T: Stored>(
     py: Python<'py>,
     values: Vec<T>,
     shape: &[usize],
 ) -> PyResult<Bound<'py, PyAny>> {
-    Ok(PyArray::from_vec(py, values).reshape(shape.to_vec())?.into_any())
+    Ok(PyArray::from_vec(py, T::peel(values)).reshape(shape.to_vec())?.into_any())
 }

@@ -9,6 +9,7 @@ use forgetting::rates::Function;
 use forgetting::rules::Forgetting;
 use forgetting::saved::AnyEstimator;
 use forgetting::{Dynamic, Error};
+use forgetting_cpu::Fused;
 use pyo3::prelude::*;
 use pyo3::types::PyFloat;
 use std::any::Any;
@@ -110,10 +111,13 @@ pub fn rate<T: Number>(callable: &Bound<'_, PyAny>) -> Function<Dynamic<T>> {
 
 /// The callable that a function of the core was made from; None if it was not.
 pub fn python<'py>(py: Python<'py>, function: &(dyn Any + Send + Sync)) -> Bound<'py, PyAny> {
-    let double = || function.downcast_ref::<Function<Dynamic<f64>>>()?.origin().downcast_ref();
-    let single = || function.downcast_ref::<Function<Dynamic<f32>>>()?.origin().downcast_ref();
+    fn origin<T: Number>(function: &(dyn Any + Send + Sync)) -> Option<&Py<PyAny>> {
+        function.downcast_ref::<Function<Dynamic<T>>>()?.origin().downcast_ref()
+    }
     let matrix = || function.downcast_ref::<Arc<dyn MatrixFunction>>()?.as_any().downcast_ref();
-    let rate: Option<&Py<PyAny>> = double().or_else(single);
+    let plain = origin::<f64>(function).or_else(|| origin::<f32>(function));
+    let fused = || origin::<Fused<f64>>(function).or_else(|| origin::<Fused<f32>>(function));
+    let rate = plain.or_else(fused);
     let rule = matrix().map(|callable: &Callable| callable.object(py));
     rate.map(|callable| callable.bind(py).clone()).or(rule).unwrap_or(py.None().into_bound(py))
 }

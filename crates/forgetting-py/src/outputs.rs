@@ -1,6 +1,6 @@
 //! The results of a record: each output grows sample by sample, if it was asked for.
 
-use crate::arrays::{shaped, Number};
+use crate::arrays::{shaped, Number, Stored};
 use crate::errors::invalid;
 use forgetting::saved::AnyEstimator;
 use forgetting::{Memory, Skip, Update};
@@ -192,7 +192,7 @@ fn push<T>(values: &mut Option<Vec<T>>, value: T) {
     }
 }
 
-fn array<T: numpy::Element>(
+fn array<T: Stored>(
     py: Python<'_>,
     values: Option<Vec<T>>,
     shape: &[usize],

@@ -53,10 +53,10 @@ pub fn run<T: Number>(
     let sizes = Sizes { samples, parameters: n, rows: p, targets: m };
     let mut outputs = Outputs::<T>::named(outputs, sizes)?;
     let copy = calls_python(estimator);
-    let (phi, y) = (slice(phi.as_slice()?, copy), slice(y.as_slice()?, copy));
+    let (phi, y) = (slice(T::wrap(phi.as_slice()?), copy), slice(T::wrap(y.as_slice()?), copy));
     let elements = match &gamma {
         None => Cow::default(),
-        Some(gamma) => slice(gamma.as_slice()?, copy),
+        Some(gamma) => slice(T::wrap(gamma.as_slice()?), copy),
     };
     let noise = match &gamma {
         None => RecordNoise::Unit,

@@ -8,20 +8,40 @@ use crate::update::Update;
 use crate::{record, results, sample};
 use forgetting::saved::{number_type, AnyEstimator};
 use forgetting::Memory;
+use forgetting_cpu::{level, Fused, Level};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyType};
 
+#[derive(Clone)]
 enum Inner {
     Double(Box<AnyEstimator<f64>>),
     Single(Box<AnyEstimator<f32>>),
+    // on a machine with fused multiply-add
+    FusedDouble(Box<AnyEstimator<Fused<f64>>>),
+    FusedSingle(Box<AnyEstimator<Fused<f32>>>),
 }
 
-/// The same expression for either number type.
+/// The same expression for a new estimator of either precision, in the arithmetic that is fast on
+/// this machine.
+macro_rules! new {
+    ($double:expr, $make:expr) => {
+        match ($double, level() >= Level::Fused) {
+            (true, false) => Inner::Double(Box::new($make)),
+            (false, false) => Inner::Single(Box::new($make)),
+            (true, true) => Inner::FusedDouble(Box::new($make)),
+            (false, true) => Inner::FusedSingle(Box::new($make)),
+        }
+    };
+}
+
+/// The same expression for any number type.
 macro_rules! either {
     ($inner:expr, $estimator:ident => $expression:expr) => {
         match $inner {
             Inner::Double($estimator) => $expression,
             Inner::Single($estimator) => $expression,
+            Inner::FusedDouble($estimator) => $expression,
+            Inner::FusedSingle($estimator) => $expression,
         }
     };
 }
@@ -90,8 +110,9 @@ impl Rls {
         let sizes = read_sizes(sizes)?;
         let initial = (initial_covariance, initial_theta);
         let mut inner = match dtype {
-            "float64" => Inner::Double(Box::new(make(sizes, rule, weighting, initial)?)),
-            "float32" => Inner::Single(Box::new(make(sizes, rule, weighting, initial)?)),
+            "float64" | "float32" => {
+                new!(dtype == f64::DTYPE, make(sizes, rule, weighting, initial)?)
+            }
             _ => {
                 return Err(invalid(format!(
                     "dtype = {dtype:?}, allowed: \"float64\", \"float32\""
@@ -126,8 +147,8 @@ impl Rls {
     #[getter]
     fn dtype(&self) -> &'static str {
         match self.inner {
-            Inner::Double(_) => f64::DTYPE,
-            Inner::Single(_) => f32::DTYPE,
+            Inner::Double(_) | Inner::FusedDouble(_) => f64::DTYPE,
+            Inner::Single(_) | Inner::FusedSingle(_) => f32::DTYPE,
         }
     }
 
@@ -300,11 +321,8 @@ impl Rls {
     /// The estimator that `to_bytes` saved, bit for bit.
     #[classmethod]
     fn from_bytes(_: &Bound<'_, PyType>, state: &[u8]) -> PyResult<Self> {
-        let inner = match number_type(state).map_err(raise)? {
-            4 => Inner::Single(Box::new(AnyEstimator::from_bytes(state).map_err(raise)?)),
-            _ => Inner::Double(Box::new(AnyEstimator::from_bytes(state).map_err(raise)?)),
-        };
-        Ok(Self { inner })
+        let double = number_type(state).map_err(raise)? == 8;
+        Ok(Self { inner: new!(double, AnyEstimator::from_bytes(state).map_err(raise)?) })
     }
 
     fn __reduce__<'py>(
@@ -315,11 +333,7 @@ impl Rls {
     }
 
     fn __copy__(&self) -> Self {
-        let inner = match &self.inner {
-            Inner::Double(e) => Inner::Double(e.clone()),
-            Inner::Single(e) => Inner::Single(e.clone()),
-        };
-        Self { inner }
+        Self { inner: self.inner.clone() }
     }
 
     fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> Self {

@@ -171,12 +171,14 @@ where
         y: &[M::Real],
         noise: Noise<'_, M::Real>,
     ) -> Result<Update<'_, M::Real>, Error> {
-        self.intake.take(self.prior.memory(), self.theta.as_ref(), phi, y)?;
+        let squares = self.intake.take(self.prior.memory(), self.theta.as_ref(), phi, y)?;
         let memory = self.prior.memory();
         let intake = &mut self.intake;
         let mut sample = Sample::new(memory, intake.regressors.as_mut(), intake.errors.as_mut());
         whiten(&mut sample, noise, intake.noise.as_mut())?;
-        let mut known = Known::of(memory, &sample)?;
+        let unit = matches!(noise, Noise::Unit);
+        let squares = if unit { squares } else { sample.squared_regressors() };
+        let mut known = Known::of(memory, &sample, squares)?;
         let needs = self.rate.needs().max(self.weighting.needs());
         let (seen, buffers) =
             (intake.seen.as_mut(), (intake.remaining.as_mut(), intake.noise.as_mut()));
@@ -187,19 +189,29 @@ where
         if !(lambda > M::Real::ZERO && lambda <= M::Real::ONE) {
             return Err(Error::value("forgetting_factor", lambda.to_f64(), "(0, 1]"));
         }
-        let step = Step {
-            factor: &mut self.factor,
-            sample: &mut sample,
-            forgetting_factor: lambda,
-            work: &mut self.work,
-        };
-        let Forgotten { rank, skipped, forgetting_factor } =
-            self.rule.forget(&mut self.rule_state, step)?;
+        let (Forgotten { rank, skipped, forgetting_factor }, growth) =
+            match self.rule.scaling(lambda) {
+                Some(growth) if sample.rows() == 1 => {
+                    self.factor.reserve(growth, M::Real::ZERO)?;
+                    let rank = if growth == M::Real::ONE { 0 } else { memory.parameters() };
+                    (Forgotten::rank(rank), growth)
+                }
+                _ => {
+                    let step = Step {
+                        factor: &mut self.factor,
+                        sample: &mut sample,
+                        forgetting_factor: lambda,
+                        work: &mut self.work,
+                    };
+                    (self.rule.forget(&mut self.rule_state, step)?, M::Real::ONE)
+                }
+            };
         let leverage = if skipped.is_some() {
             leverage(&self.factor, &sample)
         } else {
             let (gain, theta) = (self.work.gain.as_mut(), self.theta.as_mut());
-            let leverage = measure(&mut self.factor, &sample, gain, theta, &mut intake.remaining);
+            let remaining = &mut intake.remaining;
+            let leverage = measure(&mut self.factor, growth, &sample, gain, theta, remaining);
             let evidence = known.evidence(&sample, &self.factor, seen, self.samples);
             self.rate.learn(&mut self.rate_state, &evidence, lambda);
             self.samples += 1;
@@ -218,7 +230,7 @@ where
             skipped,
             windup: match &self.monitor {
                 Some(monitor) => monitor.windup(),
-                None => self.factor.largest() > self.windup_limit,
+                None => self.factor.exceeds(self.windup_limit),
             },
         })
     }

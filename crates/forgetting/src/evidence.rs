@@ -73,10 +73,14 @@ pub(crate) struct Known<T> {
 }
 
 impl<T: Real> Known<T> {
-    /// Refuses a whitened sample that is too large to compute with.
+    /// Refuses a whitened sample that is too large to compute with; its φ̄ has this ‖φ̄‖².
     #[inline]
-    pub fn of<M: Memory<Real = T>>(memory: M, sample: &Sample<'_, M>) -> Result<Self, Error> {
-        let (squared_regressors, sum) = (sample.squared_regressors(), sample.squared_error());
+    pub fn of<M: Memory<Real = T>>(
+        memory: M,
+        sample: &Sample<'_, M>,
+        squared_regressors: T,
+    ) -> Result<Self, Error> {
+        let sum = sample.squared_error();
         if !(squared_regressors <= T::CEILING) {
             if let Some(index) = sample.regressors().iter().position(|x| !x.is_finite()) {
                 return Err(not_finite("phi", index, sample.regressors()[index]));

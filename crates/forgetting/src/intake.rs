@@ -2,7 +2,7 @@
 //! before anything changes.
 
 use crate::factor::dense::check_symmetric;
-use crate::factor::kernel::dot;
+use crate::factor::kernel::{arrive, dot};
 use crate::{Error, Memory, Real, Sample};
 
 /// The noise covariance Γ of one sample.
@@ -46,7 +46,7 @@ impl<M: Memory> Intake<M> {
         }
     }
 
-    /// Checks the sample and keeps y − φθ and φ, not yet whitened.
+    /// Checks the sample and keeps y − φθ and φ, not yet whitened; returns ‖φ‖².
     ///
     /// # Errors
     /// [`Error`] names what does not fit, is not finite or is too large.
@@ -57,16 +57,22 @@ impl<M: Memory> Intake<M> {
         theta: &[M::Real],
         phi: &[M::Real],
         y: &[M::Real],
-    ) -> Result<(), Error> {
+    ) -> Result<M::Real, Error> {
         let (n, p, m) = (memory.parameters(), memory.rows(), memory.targets());
         Error::check_length("phi", phi.len(), p * n)?;
         Error::check_length("y", y.len(), p * m)?;
-        let innovations = self.innovations.as_mut();
-        let mut largest = M::Real::ZERO;
+        let (regressors, innovations) = (self.regressors.as_mut(), self.innovations.as_mut());
+        let errors = self.errors.as_mut();
+        let (mut largest, mut squares) = (M::Real::ZERO, M::Real::ZERO);
         for i in 0..p {
-            for (t, theta) in theta.chunks_exact(n).enumerate() {
-                let error = y[i * m + t] - dot(&phi[i * n..(i + 1) * n], theta);
+            let phi = &phi[i * n..(i + 1) * n];
+            let (first, square) = arrive(phi, &theta[..n], &mut regressors[i * n..(i + 1) * n]);
+            squares += square;
+            for t in 0..m {
+                let product = if t == 0 { first } else { dot(phi, &theta[t * n..(t + 1) * n]) };
+                let error = y[i * m + t] - product;
                 innovations[i * m + t] = error;
+                errors[i * m + t] = error;
                 // written so that a NaN stays
                 largest = if error.abs() <= largest { largest } else { error.abs() };
             }
@@ -74,9 +80,7 @@ impl<M: Memory> Intake<M> {
         if !(largest <= M::Real::CEILING) {
             return Err(blame(phi, y, largest));
         }
-        self.regressors.as_mut().copy_from_slice(phi);
-        self.errors.as_mut().copy_from_slice(innovations);
-        Ok(())
+        Ok(squares)
     }
 }
 

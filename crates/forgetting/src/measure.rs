@@ -9,12 +9,27 @@ pub fn leverage<M: Memory>(factor: &Factor<M>, sample: &Sample<'_, M>) -> M::Rea
     (0..sample.rows()).fold(M::Real::ZERO, |sum, i| sum + factor.leverage(sample.row(i)))
 }
 
-/// Measures and corrects, row by row; returns the leverage with the P of before.
+/// Measures and corrects, row by row; returns the leverage with the P of before. A single row
+/// takes P ← `growth`·P along; with several it must be 1.
 ///
 /// Whitened rows are independent: after each, what the later ones still tell is their
 /// innovation less what the correction explains.
 #[inline]
 pub fn measure<M: Memory>(
+    factor: &mut Factor<M>,
+    growth: M::Real,
+    sample: &Sample<'_, M>,
+    gain: &mut [M::Real],
+    theta: &mut [M::Real],
+    remaining: &mut M::Errors,
+) -> M::Real {
+    if sample.rows() == 1 {
+        return factor.measure(growth, sample.row(0), gain, (theta, sample.error(0))).leverage;
+    }
+    measure_rows(factor, sample, gain, theta, remaining)
+}
+
+fn measure_rows<M: Memory>(
     factor: &mut Factor<M>,
     sample: &Sample<'_, M>,
     gain: &mut [M::Real],
@@ -22,13 +37,6 @@ pub fn measure<M: Memory>(
     remaining: &mut M::Errors,
 ) -> M::Real {
     let n = factor.parameters();
-    if sample.rows() == 1 {
-        let measured = factor.add_information(sample.row(0), gain);
-        for (theta, &error) in theta.chunks_exact_mut(n).zip(sample.error(0)) {
-            add_scaled(theta, error / measured.variance, gain);
-        }
-        return measured.leverage;
-    }
     let leverage = leverage(factor, sample);
     let (m, remaining) = (sample.error(0).len(), remaining.as_mut());
     remaining[..sample.errors().len()].copy_from_slice(sample.errors());
@@ -36,7 +44,7 @@ pub fn measure<M: Memory>(
         let measured = factor.add_information(sample.row(i), gain);
         let (used, later) = remaining.split_at_mut((i + 1) * m);
         let used = &mut used[i * m..];
-        used.iter_mut().for_each(|error| *error /= measured.variance);
+        used.iter_mut().for_each(|error| *error *= measured.inverse_variance);
         for (theta, &step) in theta.chunks_exact_mut(n).zip(used.iter()) {
             add_scaled(theta, step, gain);
         }

@@ -3,6 +3,7 @@
 //!
 //! The algorithms see slices only, so that both give the same bits.
 
+use crate::factor::kernel::{length, set_identity};
 use crate::Real;
 use core::fmt::Debug;
 use core::marker::PhantomData;
@@ -23,7 +24,7 @@ pub trait Memory: Copy + Debug + Send + Sync + 'static {
     type Real: Real;
     /// n numbers
     type Vector: Buffer<Self::Real>;
-    /// n (n − 1) / 2 numbers: the columns of U above its unit diagonal
+    /// the columns of U: [`length`](crate::factor::kernel::length) of n numbers
     type Packed: Buffer<Self::Real>;
     /// n x n numbers
     type Square: Buffer<Self::Real>;
@@ -47,7 +48,7 @@ pub trait Memory: Copy + Debug + Send + Sync + 'static {
 
     /// n zeros
     fn vector(&self) -> Self::Vector;
-    /// n (n − 1) / 2 zeros
+    /// U = I
     fn packed(&self) -> Self::Packed;
     /// n x n zeros
     fn square(&self) -> Self::Square;
@@ -85,9 +86,9 @@ impl<T, const A: usize, const B: usize> AsMut<[T]> for Grid<T, A, B> {
 
 /// A number of parameters for which the packed triangle has a type (1 to 32).
 pub trait Packed<T> {
-    /// n (n − 1) / 2 numbers
+    /// [`length`] of n numbers
     type Triangle: Buffer<T>;
-    /// zeros
+    /// U = I
     fn triangle() -> Self::Triangle;
 }
 
@@ -98,9 +99,11 @@ pub struct Size<const N: usize>;
 macro_rules! packed {
     ($($n:literal)*) => {$(
         impl<T: Real> Packed<T> for Size<$n> {
-            type Triangle = [T; $n * ($n - 1) / 2];
+            type Triangle = [T; length($n)];
             fn triangle() -> Self::Triangle {
-                [T::ZERO; $n * ($n - 1) / 2]
+                let mut triangle = [T::ZERO; length($n)];
+                set_identity(&mut triangle, $n);
+                triangle
             }
         }
     )*};
@@ -179,11 +182,11 @@ where
 }
 
 #[cfg(feature = "alloc")]
-pub use dynamic::Dynamic;
+pub use dynamic::{Aligned, Dynamic};
 
 #[cfg(feature = "alloc")]
 mod dynamic {
-    use super::{Memory, PhantomData};
+    use super::{length, set_identity, Memory, PhantomData};
     use crate::{Error, Real};
     use alloc::{vec, vec::Vec};
 
@@ -215,16 +218,66 @@ mod dynamic {
         }
     }
 
+    /// Numbers on the heap, the first of them at the start of a cache line: a vector that lies
+    /// across two lines costs twice.
+    #[derive(Debug)]
+    pub struct Aligned<T> {
+        numbers: Vec<T>,
+        first: usize,
+        length: usize,
+    }
+
+    impl<T: Real> Aligned<T> {
+        const LINE: usize = 64;
+
+        fn zeros(length: usize) -> Self {
+            let spare = Self::LINE / T::BYTES;
+            let numbers = vec![T::ZERO; length + spare];
+            let first = numbers.as_ptr().align_offset(Self::LINE).min(spare);
+            Self { numbers, first, length }
+        }
+    }
+
+    impl<T: Real> Clone for Aligned<T> {
+        fn clone(&self) -> Self {
+            let mut copy = Self::zeros(self.length);
+            copy.as_mut().copy_from_slice(self.as_ref());
+            copy
+        }
+    }
+
+    impl<T> AsRef<[T]> for Aligned<T> {
+        #[inline(always)]
+        fn as_ref(&self) -> &[T] {
+            &self.numbers[self.first..self.first + self.length]
+        }
+    }
+
+    impl<T> core::ops::Deref for Aligned<T> {
+        type Target = [T];
+        #[inline(always)]
+        fn deref(&self) -> &[T] {
+            self.as_ref()
+        }
+    }
+
+    impl<T> AsMut<[T]> for Aligned<T> {
+        #[inline(always)]
+        fn as_mut(&mut self) -> &mut [T] {
+            &mut self.numbers[self.first..self.first + self.length]
+        }
+    }
+
     impl<T: Real> Memory for Dynamic<T> {
         type Real = T;
-        type Vector = Vec<T>;
-        type Packed = Vec<T>;
-        type Square = Vec<T>;
-        type Rows = Vec<T>;
-        type Noise = Vec<T>;
-        type Errors = Vec<T>;
-        type Parameters = Vec<T>;
-        type List = Vec<T>;
+        type Vector = Aligned<T>;
+        type Packed = Aligned<T>;
+        type Square = Aligned<T>;
+        type Rows = Aligned<T>;
+        type Noise = Aligned<T>;
+        type Errors = Aligned<T>;
+        type Parameters = Aligned<T>;
+        type List = Aligned<T>;
 
         #[inline(always)]
         fn parameters(&self) -> usize {
@@ -238,29 +291,31 @@ mod dynamic {
         fn targets(&self) -> usize {
             self.targets
         }
-        fn vector(&self) -> Vec<T> {
-            vec![T::ZERO; self.parameters]
+        fn vector(&self) -> Aligned<T> {
+            Aligned::zeros(self.parameters)
         }
-        fn packed(&self) -> Vec<T> {
-            vec![T::ZERO; self.parameters * (self.parameters - 1) / 2]
+        fn packed(&self) -> Aligned<T> {
+            let mut columns = Aligned::zeros(length(self.parameters));
+            set_identity(columns.as_mut(), self.parameters);
+            columns
         }
-        fn square(&self) -> Vec<T> {
-            vec![T::ZERO; self.parameters * self.parameters]
+        fn square(&self) -> Aligned<T> {
+            Aligned::zeros(self.parameters * self.parameters)
         }
-        fn regressors(&self) -> Vec<T> {
-            vec![T::ZERO; self.rows * self.parameters]
+        fn regressors(&self) -> Aligned<T> {
+            Aligned::zeros(self.rows * self.parameters)
         }
-        fn noise(&self) -> Vec<T> {
-            vec![T::ZERO; self.rows * self.rows]
+        fn noise(&self) -> Aligned<T> {
+            Aligned::zeros(self.rows * self.rows)
         }
-        fn errors(&self) -> Vec<T> {
-            vec![T::ZERO; self.rows * self.targets]
+        fn errors(&self) -> Aligned<T> {
+            Aligned::zeros(self.rows * self.targets)
         }
-        fn theta(&self) -> Vec<T> {
-            vec![T::ZERO; self.targets * self.parameters]
+        fn theta(&self) -> Aligned<T> {
+            Aligned::zeros(self.targets * self.parameters)
         }
-        fn list(&self, length: usize) -> Vec<T> {
-            vec![T::ZERO; length.min(Self::LONGEST_LIST)]
+        fn list(&self, length: usize) -> Aligned<T> {
+            Aligned::zeros(length.min(Self::LONGEST_LIST))
         }
         fn longest_list(&self) -> usize {
             Self::LONGEST_LIST

@@ -77,7 +77,7 @@ pub trait Real:
 
     /// Runs a loop over numbers of this type, with the instructions that suit it best.
     ///
-    /// Not inlined: each loop exists once for a number type, not once for each rule, rate and size.
+    /// Each loop exists once for a number type, not once for each rule, rate and size.
     #[inline(never)]
     fn compute<K: Kernel<Self>>(kernel: K) -> K::Output {
         kernel.run::<Self::Lanes, 2>()

@@ -76,7 +76,10 @@ impl<'a, M: Memory> Sample<'a, M> {
     /// ‖ē‖² over rows and targets.
     #[inline]
     pub fn squared_error(&self) -> M::Real {
-        dot(self.errors(), self.errors())
+        match self.errors() {
+            [error] => *error * *error,
+            errors => dot(errors, errors),
+        }
     }
 
     /// Multiplies the sample by c: Γ ← Γ/c².

@@ -11,6 +11,7 @@ import forgetting as fg
 from forgetting.cli.demo import demo
 from forgetting.cli.identify import identify
 from forgetting.cli.rules import rules
+from forgetting.papers.command import reproduce
 from forgetting.record.errors import RecordError
 
 BAD = 2
@@ -27,6 +28,7 @@ app = typer.Typer(
 app.command()(identify)
 app.command()(rules)
 app.command()(demo)
+app.command()(reproduce)
 
 
 def show_version(wanted: bool) -> None:

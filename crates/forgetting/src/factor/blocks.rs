@@ -6,7 +6,7 @@ use crate::Memory;
 impl<M: Memory> Factor<M> {
     /// U ← I: what is left of P is its D. To be followed by [`Factor::put_block`]. O(n²).
     pub fn clear_columns(&mut self) {
-        self.columns.as_mut().fill(M::Real::default());
+        kernel::set_identity(self.columns.as_mut(), self.memory.parameters());
     }
 
     /// The block of P from parameter `start` on becomes the U D Uᵀ of this packed triangle and

@@ -10,6 +10,8 @@ pub struct Measured<T> {
     pub leverage: T,
     /// a = 1 + s
     pub variance: T,
+    /// 1 / a
+    pub inverse_variance: T,
 }
 
 impl<M: Memory> Factor<M> {
@@ -17,9 +19,23 @@ impl<M: Memory> Factor<M> {
     /// gain) in `gain`.
     #[inline]
     pub fn add_information(&mut self, f: &[M::Real], gain: &mut [M::Real]) -> Measured<M::Real> {
-        let (leverage, variance) =
-            kernel::bierman(self.columns.as_mut(), self.diagonal.as_mut(), f, gain);
-        Measured { leverage, variance }
+        kernel::bierman(self.columns.as_mut(), self.diagonal.as_mut(), f, gain)
+    }
+
+    /// P ← `growth`·P, then [`Factor::add_information`], then θ ← θ + P·fᵀe for the n numbers of
+    /// `theta` that belong to each e of `errors`: all of it in one pass over U.
+    ///
+    /// Call [`Factor::reserve`] first.
+    #[inline]
+    pub(crate) fn measure(
+        &mut self,
+        growth: M::Real,
+        f: &[M::Real],
+        gain: &mut [M::Real],
+        correct: (&mut [M::Real], &[M::Real]),
+    ) -> Measured<M::Real> {
+        let factor = (self.columns.as_mut(), self.diagonal.as_mut(), growth);
+        kernel::measure(factor, f, gain, correct)
     }
 
     /// f·P·fᵀ for n numbers `f`.

@@ -10,13 +10,15 @@ pub(crate) mod dense;
 mod information;
 pub mod kernel;
 
+pub use information::Measured;
+
 use crate::{Error, Memory, Real};
 
 /// P = U D Uᵀ, n x n and positive definite.
 #[derive(Clone, Debug)]
 pub struct Factor<M: Memory> {
     memory: M,
-    /// the columns of U above its unit diagonal, one after the other
+    /// the columns of U, one after the other; see [`kernel::start`]
     columns: M::Packed,
     diagonal: M::Vector,
     /// at least the trace of P; kept in O(1), tightened when it matters
@@ -92,7 +94,7 @@ impl<M: Memory> Factor<M> {
         self.diagonal.as_ref()
     }
 
-    /// U above its diagonal: column j (j numbers) starts at j (j − 1) / 2.
+    /// The columns of U as the kernels take them.
     #[inline(always)]
     pub fn packed_columns(&self) -> &[M::Real] {
         self.columns.as_ref()
@@ -105,6 +107,13 @@ impl<M: Memory> Factor<M> {
         self.diagonal.as_ref().iter().fold(M::Real::ZERO, |largest, &d| largest.max(d))
     }
 
+    /// Whether an element of D is larger than `limit`.
+    #[inline(always)]
+    pub(crate) fn exceeds(&self, limit: M::Real) -> bool {
+        // without a branch in the loop
+        self.diagonal.as_ref().iter().fold(false, |any, &d| any | (d > limit))
+    }
+
     /// The smallest element of D: at least the smallest eigenvalue of P.
     #[inline(always)]
     pub fn smallest(&self) -> M::Real {
@@ -113,7 +122,7 @@ impl<M: Memory> Factor<M> {
 
     /// Column j of U above the diagonal.
     #[inline(always)]
-    pub(crate) fn column(&self, j: usize) -> &[M::Real] {
+    pub fn column(&self, j: usize) -> &[M::Real] {
         kernel::column(self.columns.as_ref(), j)
     }
 
@@ -169,7 +178,7 @@ impl<M: Memory> Factor<M> {
 
     /// Visits every number of the state, to save or restore it.
     pub fn visit(&mut self, visitor: &mut dyn crate::state::Visitor<M::Real>) {
-        visitor.reals(self.columns.as_mut());
+        kernel::visit(self.columns.as_mut(), self.memory.parameters(), visitor);
         visitor.reals(self.diagonal.as_mut());
         visitor.reals(core::slice::from_mut(&mut self.trace_bound));
     }

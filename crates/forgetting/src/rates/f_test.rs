@@ -151,6 +151,20 @@ fn product<T: Real>(root: &[T], x: &[T], y: &[T]) -> T {
     })
 }
 
+/// Σ z zᵀ over the ring, written to `sum`.
+fn sum_of_squares<T: Real>(ring: &[T], sum: &mut [T], d: usize) {
+    if d == 1 {
+        sum[0] = dot(ring, ring);
+        return;
+    }
+    sum.fill(T::ZERO);
+    for z in ring.chunks_exact(d) {
+        for (row, &c) in sum.chunks_exact_mut(d).zip(z) {
+            add_scaled(row, c, z);
+        }
+    }
+}
+
 /// The d x d matrix A in `a` becomes L with A⁻¹ = LᵀL, or 0 if A is singular.
 fn inverse_root<T: Real>(a: &mut [T], d: usize) {
     let tolerance = T::EPSILON * T::from_f64(64.0 * d as f64);
@@ -189,7 +203,7 @@ impl<M: Memory> Rate<M> for FTest<M> {
         self.limits.describe(each);
     }
 
-    /// The last z in a ring, then L.
+    /// The last τ_d − 1 of z in a ring, 0 where the next one goes; then L.
     fn start(&self, memory: M) -> Self::State {
         let d = memory.rows() * memory.targets();
         Past(memory.list(self.windows.long() * d + d * d))
@@ -218,17 +232,13 @@ impl<M: Memory> Rate<M> for FTest<M> {
         for (kept, &z) in ring[place..place + d].iter_mut().zip(evidence.errors) {
             *kept = z.min(limit).max(-limit);
         }
-        if !self.windows.full(samples + 1) {
-            return;
+        // no later window has the oldest
+        let next = self.windows.place(samples + 1) * d;
+        ring[next..next + d].fill(M::Real::ZERO);
+        if self.windows.full(samples + 1) {
+            sum_of_squares(ring, root, d);
+            inverse_root(root, d);
         }
-        root.fill(M::Real::ZERO);
-        for k in self.windows.others(self.windows.place(samples + 1)) {
-            let z = &ring[k * d..(k + 1) * d];
-            for (row, &c) in root.chunks_exact_mut(d).zip(z) {
-                add_scaled(row, c, z);
-            }
-        }
-        inverse_root(root, d);
     }
 }
 

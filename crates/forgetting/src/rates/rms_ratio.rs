@@ -64,7 +64,7 @@ pub struct RmsRatio<M: Memory> {
     memory: PhantomData<M>,
 }
 
-/// The last squared errors, in a ring.
+/// The last τ_d − 1 squared errors, in a ring; 0 where the next one goes.
 #[derive(Clone, Debug)]
 pub struct Past<M: Memory>(pub(super) M::List);
 
@@ -127,7 +127,7 @@ impl<M: Memory> Rate<M> for RmsRatio<M> {
     ) -> Result<M::Real, Error> {
         let (past, place) = (past.0.as_ref(), self.windows.place(evidence.samples));
         let now = evidence.squared_error;
-        let long = self.windows.others(place).fold(now, |sum, k| sum + past[k]);
+        let long = past[..self.windows.long()].iter().fold(now, |sum, &square| sum + square);
         if !self.windows.full(evidence.samples) || long <= M::Real::ZERO {
             return Ok(self.limits.largest());
         }
@@ -140,7 +140,10 @@ impl<M: Memory> Rate<M> for RmsRatio<M> {
 
     #[inline]
     fn learn(&self, past: &mut Self::State, evidence: &Evidence<'_, '_, M>, _: M::Real) {
-        past.0.as_mut()[self.windows.place(evidence.samples)] = evidence.squared_error;
+        let (past, samples) = (past.0.as_mut(), evidence.samples);
+        past[self.windows.place(samples)] = evidence.squared_error;
+        // no later window has the oldest
+        past[self.windows.place(samples + 1)] = M::Real::ZERO;
     }
 }
 

@@ -93,12 +93,6 @@ impl Windows {
         let long = self.long;
         (1..self.short).map(move |age| (place + long - age) % long)
     }
-
-    /// The places of the τ_d − 1 samples before the one at `place`.
-    #[inline]
-    pub(super) fn others(&self, place: usize) -> impl Iterator<Item = usize> {
-        (0..self.long).filter(move |&other| other != place)
-    }
 }
 
 #[cfg(test)]
@@ -112,7 +106,6 @@ mod tests {
         let windows = Windows::new(3, 5).unwrap();
         assert_eq!(windows.place(12), 2);
         assert_eq!(windows.recent(0).collect::<Vec<_>>(), [4, 3]);
-        assert_eq!(windows.others(2).collect::<Vec<_>>(), [0, 1, 3, 4]);
         assert_eq!([3, 4].map(|k| windows.full(k)), [false, true]);
     }
 

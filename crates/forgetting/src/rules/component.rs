@@ -184,7 +184,7 @@ impl<M: Memory> BlockRoot<M> {
     /// P_bb = V diag(d) Vᵀ: the block's own triangle of U, and a dyad for each later column.
     fn compute(&mut self, factor: &Factor<M>, range: Places<usize>, x: &mut [M::Real]) {
         let (size, start) = (range.len(), range.start);
-        let columns = &mut self.columns.as_mut()[..size * (size - 1) / 2];
+        let columns = &mut self.columns.as_mut()[..kernel::length(size)];
         let diagonal = &mut self.diagonal.as_mut()[..size];
         diagonal.copy_from_slice(&factor.diagonal_elements()[range.clone()]);
         for j in 0..size {

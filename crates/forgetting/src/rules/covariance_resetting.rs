@@ -26,8 +26,8 @@
 //!   and v the mean of u over the samples before (over the last M or so once there are that many):
 //!   from k = M on, g ← max(0, g + u/v − 1 − d), met if g > h, and then g ← 0. u/v does not depend
 //!   on the scale of the noise. With the defaults and Gaussian noise, one target and one row, a
-//!   false alarm comes about once in 35 000 samples, and innovations whose variance suddenly is
-//!   ten times as large are found after 4 samples on average.
+//!   false alarm comes about once in 40 000 samples, and innovations whose variance suddenly is
+//!   ten times as large are found after 4 to 5 samples on average.
 //!
 //! At a reset the rule still chooses what is measured, and its own state goes on. A sample that
 //! it skips is skipped, and the criterion does not see it. The forgetting factor is the rule's.

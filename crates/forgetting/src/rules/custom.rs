@@ -18,7 +18,7 @@
 //!   fails, or R − F is not positive definite beyond the rounding of R, is refused and changes
 //!   nothing.
 //!
-//! Reference: A. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
+//! Reference: B. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
 //! stability and robustness guarantees*, IEEE Transactions on Automatic Control, 2024,
 //! Theorem 1.
 

@@ -22,7 +22,7 @@
 //! - Use it in the place of `exponential_resetting` when n is large. With λ_k that varies within
 //!   a cycle the inserted weights are those of each sample's λ_k, and the cycle is approximate.
 //!
-//! Reference: A. Lai, D. S. Bernstein, *Exponential resetting and cyclic resetting recursive
+//! Reference: B. Lai, D. S. Bernstein, *Exponential resetting and cyclic resetting recursive
 //! least squares*, IEEE Control Systems Letters 7, 2023.
 
 use super::{About, Claim, Forgetting, Forgotten, Step};

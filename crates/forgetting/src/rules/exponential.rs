@@ -61,6 +61,11 @@ impl<M: Memory> Forgetting<M> for Exponential<M> {
     fn start(&self, _: M) {}
 
     #[inline]
+    fn scaling(&self, forgetting_factor: M::Real) -> Option<M::Real> {
+        Some(M::Real::ONE / forgetting_factor)
+    }
+
+    #[inline]
     fn forget(&self, (): &mut (), step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         let lambda = step.forgetting_factor;
         if lambda >= M::Real::ONE {

@@ -115,6 +115,7 @@ impl<M: Memory> MatrixForgetting<M> {
     }
 
     /// bᴺ for the eigenvalue r of R.
+    #[inline]
     fn share(&self, r: M::Real) -> M::Real {
         let base = match self.shift {
             None => M::Real::ONE - self.information / r,
@@ -124,6 +125,7 @@ impl<M: Memory> MatrixForgetting<M> {
     }
 
     /// Forgets along eigenvector i.
+    #[inline]
     fn forget_along(&self, spectrum: &mut Spectrum<M>, step: &mut Step<'_, '_, M>, i: usize) {
         let r = spectrum.information()[i];
         let lost = (M::Real::ONE - step.forgetting_factor) * self.share(r);
@@ -170,6 +172,7 @@ impl<M: Memory> Forgetting<M> for MatrixForgetting<M> {
         true
     }
 
+    #[inline]
     fn forget(
         &self,
         spectrum: &mut Spectrum<M>,

@@ -122,6 +122,16 @@ pub trait Forgetting<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
         false
     }
 
+    /// What P is multiplied with, if the rule does nothing else and keeps no state: P̄ = c·P.
+    ///
+    /// The estimator then need not call [`Forgetting::forget`], which must do the same: it scales
+    /// P while it measures.
+    #[inline]
+    fn scaling(&self, forgetting_factor: M::Real) -> Option<M::Real> {
+        let _ = forgetting_factor;
+        None
+    }
+
     /// Forgets. Changes P, may rotate, scale or drop rows of the sample.
     ///
     /// # Errors
@@ -212,6 +222,14 @@ macro_rules! choice_of_rules {
             }
 
             #[inline]
+            fn scaling(&self, forgetting_factor: M::Real) -> Option<M::Real> {
+                match self {
+                    $(Self::$Variant(rule) => rule.scaling(forgetting_factor),)*
+                }
+            }
+
+            // not into every update: it is all the rules there are
+            #[inline(never)]
             fn forget(
                 &self,
                 state: &mut Self::State,

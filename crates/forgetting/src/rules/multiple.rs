@@ -24,11 +24,11 @@
 //!
 //! Reference: A. Vahidi, A. Stefanopoulou, H. Peng, *Recursive least squares with forgetting for
 //! online estimation of vehicle mass and road grade: theory and experiments*, Vehicle System
-//! Dynamics 43, 2005; A. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
+//! Dynamics 43, 2005; B. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
 //! stability and robustness guarantees*, IEEE Transactions on Automatic Control, 2024, V-J.
 
 use super::{About, Claim, Forgetting, Forgotten, Step};
-use crate::factor::kernel::{add_scaled, bierman, dot};
+use crate::factor::kernel::{self, add_scaled, bierman, dot, length, set_identity};
 use crate::parameter::{Kind, Parameter, Range, Value, Values};
 use crate::state::{State, Visitor};
 use crate::{Error, Factor, Memory, Real};
@@ -127,6 +127,7 @@ impl<M: Memory> Multiple<M> {
     }
 
     /// Each block: its first parameter, its size and its factor.
+    #[inline]
     fn blocks(&self) -> impl Iterator<Item = (usize, usize, M::Real)> + '_ {
         let sizes = self.sizes.as_ref()[..self.count].iter().map(|size| size.to_f64() as usize);
         sizes.zip(self.factors.as_ref()).scan(0, |start, (size, &factor)| {
@@ -157,8 +158,8 @@ impl<M: Memory> Blocks<M> {
     fn start_block(&mut self, factor: &Factor<M>, start: usize, size: usize, offset: usize) {
         let n = factor.parameters();
         let rows = &mut self.work.as_mut()[..size * n];
-        let columns = &mut self.columns.as_mut()[offset..offset + size * (size - 1) / 2];
-        columns.fill(M::Real::ZERO);
+        let columns = &mut self.columns.as_mut()[offset..offset + length(size)];
+        set_identity(columns, size);
         for t in 0..size {
             let (done, row) = rows.split_at_mut(t * n);
             let row = &mut row[..n];
@@ -168,7 +169,7 @@ impl<M: Memory> Blocks<M> {
             for (x, &d) in row.iter_mut().zip(factor.diagonal_elements()) {
                 *x /= d.sqrt();
             }
-            let (before, column) = columns.split_at_mut(t * t.saturating_sub(1) / 2);
+            let (before, column) = columns.split_at_mut(kernel::start(t));
             for (u, q) in done.chunks_exact(n).enumerate() {
                 let share = dot(q, row) / dot(q, q);
                 add_scaled(row, -share, q);
@@ -210,6 +211,7 @@ impl<M: Memory> Forgetting<M> for Multiple<M> {
         Blocks { columns, diagonal, started: 0, work: memory.square() }
     }
 
+    #[inline]
     fn forget(&self, state: &mut Blocks<M>, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         let least = self.blocks().fold(M::Real::ONE, |least, (_, _, lambda)| least.min(lambda));
         // R_bb⁻¹ ≤ P_bb, so that P̄ is at most P/λ of the smallest λ
@@ -218,14 +220,14 @@ impl<M: Memory> Forgetting<M> for Multiple<M> {
             let mut offset = 0;
             for (start, size, _) in self.blocks() {
                 state.start_block(step.factor, start, size, offset);
-                offset += size * (size - 1) / 2;
+                offset += length(size);
             }
             state.started = 1;
         }
         step.factor.clear_columns();
         let mut offset = 0;
         for (start, size, lambda) in self.blocks() {
-            let columns = &mut state.columns.as_mut()[offset..offset + size * (size - 1) / 2];
+            let columns = &mut state.columns.as_mut()[offset..offset + length(size)];
             let diagonal = &mut state.diagonal.as_mut()[start..start + size];
             diagonal.iter_mut().for_each(|d| *d = (*d / lambda).min(M::Real::CEILING));
             step.factor.put_block(start, columns, diagonal);

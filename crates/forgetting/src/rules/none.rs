@@ -20,7 +20,7 @@
 
 use super::{About, Claim, Forgetting, Forgotten, Step};
 use crate::parameter::{Value, Values};
-use crate::{Error, Memory};
+use crate::{Error, Memory, Real};
 use core::marker::PhantomData;
 
 /// The registry entry.
@@ -61,6 +61,11 @@ impl<M: Memory> Forgetting<M> for NoForgetting<M> {
 
     fn is_bounded(&self) -> bool {
         true
+    }
+
+    #[inline]
+    fn scaling(&self, _: M::Real) -> Option<M::Real> {
+        Some(M::Real::ONE)
     }
 
     #[inline]

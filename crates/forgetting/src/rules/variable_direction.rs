@@ -78,6 +78,7 @@ impl<M: Memory> VariableDirection<M> {
 
     /// Marks the excited eigenvectors with 1 in `work.second`, and forgets along those of
     /// uneven clusters; returns the number of excited ones and of those dealt with.
+    #[inline]
     fn find(&self, spectrum: &mut Spectrum<M>, step: &mut Step<'_, '_, M>) -> (usize, usize) {
         let n = step.factor.parameters();
         let growth = M::Real::ONE / step.forgetting_factor;
@@ -111,6 +112,7 @@ impl<M: Memory> VariableDirection<M> {
 }
 
 /// Forgets along the eigenvectors marked in `work.second`, each alone in its cluster.
+#[inline]
 fn forget_marked<M: Memory>(
     spectrum: &mut Spectrum<M>,
     step: &mut Step<'_, '_, M>,
@@ -151,6 +153,7 @@ impl<M: Memory> Forgetting<M> for VariableDirection<M> {
         Spectrum::new(memory)
     }
 
+    #[inline]
     fn forget(
         &self,
         spectrum: &mut Spectrum<M>,

@@ -96,6 +96,9 @@ fn a_sample_without_error_moves_no_parameter() {
     no_error_no_move::<f32>((5, 2, 1));
 }
 
+/// φ, y and Γ, of which something is wrong.
+type Bad<T> = (Vec<T>, Vec<T>, Option<Vec<T>>);
+
 fn refused_samples_change_nothing<T: Real>(sizes: (usize, usize, usize)) {
     let (n, p, m) = sizes;
     let data: Vec<Datum<T>> = record(sizes, 60);
@@ -107,7 +110,7 @@ fn refused_samples_change_nothing<T: Real>(sizes: (usize, usize, usize)) {
         all
     };
     let fine = (vec![T::ONE; p * n], vec![T::ONE; p * m]);
-    let mut bad: Vec<(Vec<T>, Vec<T>, Option<Vec<T>>)> = Vec::new();
+    let mut bad: Vec<Bad<T>> = Vec::new();
     for value in [nan, infinite, -infinite, huge] {
         bad.push((with(p * n, value), fine.1.clone(), None));
         bad.push((fine.0.clone(), with(p * m, value), None));

@@ -56,9 +56,11 @@ impl Input {
                 vec![0.6 * length, 0.8 * length, 0.0]
             }
             Self::Uneven(second) => vec![1.0, 0.0, 0.0, 0.0, second, 0.0],
-            Self::Alternating if k % 22 == 0 => vec![1.0, 1e-3, 0.0],
-            Self::Alternating if k % 22 == 11 => vec![1.0, -1e-3, 0.0],
-            Self::Alternating => vec![0.0, 1e-4, 0.0],
+            Self::Alternating => match k % 22 {
+                0 => vec![1.0, 1e-3, 0.0],
+                11 => vec![1.0, -1e-3, 0.0],
+                _ => vec![0.0, 1e-4, 0.0],
+            },
             Self::Axes => (0..N).map(|i| if i == k % N { noise.next() } else { 0.0 }).collect(),
             Self::Correlated => {
                 let common = any(1.0)[0];

@@ -10,6 +10,7 @@ mod record;
 mod subjects;
 
 mod bounds;
+mod change;
 mod claims;
 mod inputs;
 mod run;

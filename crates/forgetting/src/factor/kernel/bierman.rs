@@ -1,39 +1,89 @@
-//! Bierman's measurement update with unit variance: P⁻¹ ← P⁻¹ + fᵀf. O(1.5 n²).
+//! Measure and correct: Bierman's update with unit variance, P⁻¹ ← P⁻¹ + fᵀf, and θ ← θ + P₊fᵀe.
 //!
 //! ```text
-//! for each column j of U:   w = f_j + u·f,  v = D_j w,  a' = a + w v
+//! for each column j of U:   w = f_j + u·f,  v = D_j w,  s' = s + w v,  a = 1 + s
 //!                           D_j ← D_j a / a',  u ← u − (w / a) k,  k ← k + v u (the u of before)
+//! then                      θ ← θ + k e / a'
 //! ```
 //!
-//! The columns are taken in blocks, so that the eight divisions of a block are independent and
-//! the gain k passes once through the registers for eight columns. The order of every sum is the
-//! same for all sizes and blocks.
+//! The columns are taken in blocks, so that the divisions of a block do not wait for each other
+//! and the gain k passes once through the registers for several columns. O(1.5 n²).
 //!
 //! G. J. Bierman, *Factorization Methods for Discrete Sequential Estimation*, 1977, chapter V.
 
-use super::block::{dots, rectangle, rectangle_mut, rotate, start, BLOCK};
+use super::block::{dots, load_triangle, rotate, store_triangle, with_width, PerColumn};
+use super::layout::BLOCK;
+use super::long::add_scaled_by;
+use crate::factor::Measured;
 use crate::vector::Vector;
 use crate::{Kernel, Real};
 
-/// The update as a kernel: returns (s, a), s = f·P·fᵀ and a = 1 + s, and leaves P·fᵀ with the P
-/// of before in `gain`.
+/// The update, with P ← `growth`·P before it; leaves P·fᵀ in `gain`, with the P before the
+/// measurement. `theta` holds n numbers for every number of `errors`.
 pub struct Bierman<'a, T> {
     pub columns: &'a mut [T],
     pub diagonal: &'a mut [T],
+    pub growth: T,
     pub f: &'a [T],
     pub gain: &'a mut [T],
+    pub theta: &'a mut [T],
+    pub errors: &'a [T],
 }
 
-/// What passes from column to column.
+/// What passes from column to column: s = a − 1, and 1/a.
 #[derive(Clone, Copy)]
 struct Chain<T> {
     s: T,
-    a: T,
     inverse_a: T,
 }
 
+impl<T: Real> Chain<T> {
+    const START: Self = Self { s: T::ZERO, inverse_a: T::ONE };
+
+    /// Goes through C columns; returns the slope and v of each.
+    ///
+    /// Only the sum s passes from one column to the next; all else is done for all side by side.
+    #[inline(always)]
+    fn extend<const C: usize>(
+        &mut self,
+        d: &mut [T; C],
+        growth: T,
+        w: &[T; C],
+    ) -> ([T; C], [T; C]) {
+        let (mut v, mut a, mut inverse) = ([T::ZERO; C], [T::ZERO; C], [T::ZERO; C]);
+        let mut product = [T::ZERO; C];
+        for c in 0..C {
+            d[c] *= growth;
+            v[c] = d[c] * w[c];
+            product[c] = w[c] * v[c];
+        }
+        let mut s = self.s;
+        for c in 0..C {
+            s += product[c];
+            a[c] = T::ONE + s;
+        }
+        for c in 0..C {
+            inverse[c] = T::ONE / a[c];
+        }
+        let mut slope = [T::ZERO; C];
+        let (mut a_before, mut inverse_before) = (T::ONE + self.s, self.inverse_a);
+        for c in 0..C {
+            slope[c] = -(w[c] * inverse_before);
+            d[c] = (d[c] * (a_before * inverse[c])).max(T::FLOOR);
+            (a_before, inverse_before) = (a[c], inverse[c]);
+        }
+        *self = Self { s, inverse_a: inverse_before };
+        (slope, v)
+    }
+
+    #[inline(always)]
+    fn measured(self) -> Measured<T> {
+        Measured { leverage: self.s, variance: T::ONE + self.s, inverse_variance: self.inverse_a }
+    }
+}
+
 impl<T: Real> Kernel<T> for Bierman<'_, T> {
-    type Output = (T, T);
+    type Output = Measured<T>;
 
     #[inline(always)]
     fn size(&self) -> usize {
@@ -41,159 +91,69 @@ impl<T: Real> Kernel<T> for Bierman<'_, T> {
     }
 
     #[inline(always)]
-    fn run<V: Vector<T>, const GROUP: usize>(self) -> (T, T) {
-        let Self { columns, diagonal, f, gain } = self;
-        let n = diagonal.len();
-        let (f, gain) = (&f[..n], &mut gain[..n]);
-        let mut chain = Chain { s: T::ZERO, a: T::ONE, inverse_a: T::ONE };
-        let mut j = 0;
-        while j < n {
-            let width = BLOCK.min(n - j);
-            let mut sums = [T::ZERO; BLOCK];
-            if j > 0 {
-                sweep_dots::<T, V, GROUP>(columns, j, width, f, &mut sums);
-            }
-            let (slope, v) = corner(columns, diagonal, f, gain, j, width, &sums, &mut chain);
-            if j > 0 {
-                sweep_rotate::<T, V, GROUP>(columns, j, width, gain, &slope, &v);
-            }
-            j += width;
+    fn run<V: Vector<T>, const GROUP: usize>(self) -> Measured<T> {
+        let n = self.diagonal.len();
+        if n <= BLOCK {
+            return with_width!(n, small::<T>(self));
         }
-        (chain.s, chain.a)
-    }
-}
-
-#[inline(always)]
-fn sweep_dots<T: Real, V: Vector<T>, const GROUP: usize>(
-    columns: &[T],
-    j: usize,
-    width: usize,
-    f: &[T],
-    sums: &mut [T; BLOCK],
-) {
-    let f = &f[..j];
-    let mut c = 0;
-    if GROUP >= 8 && width == 8 {
-        *sums = dots::<T, V, 8>(rectangle(columns, j, j), f);
-        return;
-    }
-    while GROUP >= 4 && width - c >= 4 {
-        sums[c..c + 4].copy_from_slice(&dots::<T, V, 4>(rectangle(columns, j + c, j), f));
-        c += 4;
-    }
-    while width - c >= 2 {
-        sums[c..c + 2].copy_from_slice(&dots::<T, V, 2>(rectangle(columns, j + c, j), f));
-        c += 2;
-    }
-    if c < width {
-        sums[c..c + 1].copy_from_slice(&dots::<T, V, 1>(rectangle(columns, j + c, j), f));
-    }
-}
-
-#[inline(always)]
-fn sweep_rotate<T: Real, V: Vector<T>, const GROUP: usize>(
-    columns: &mut [T],
-    j: usize,
-    width: usize,
-    gain: &mut [T],
-    slope: &[T; BLOCK],
-    v: &[T; BLOCK],
-) {
-    let k = &mut gain[..j];
-    let mut c = 0;
-    if GROUP >= 8 && width == 8 {
-        rotate::<T, V, 8>(rectangle_mut(columns, j, j), k, *slope, *v);
-        return;
-    }
-    let part = |x: &[T; BLOCK], c: usize| x[c..].first_chunk().copied();
-    while GROUP >= 4 && width - c >= 4 {
-        let (slope, v) =
-            (part(slope, c).unwrap_or([T::ZERO; 4]), part(v, c).unwrap_or([T::ZERO; 4]));
-        rotate::<T, V, 4>(rectangle_mut(columns, j + c, j), k, slope, v);
-        c += 4;
-    }
-    while width - c >= 2 {
-        rotate::<T, V, 2>(
-            rectangle_mut(columns, j + c, j),
-            k,
-            [slope[c], slope[c + 1]],
-            [v[c], v[c + 1]],
-        );
-        c += 2;
-    }
-    if c < width {
-        rotate::<T, V, 1>(rectangle_mut(columns, j + c, j), k, [slope[c]], [v[c]]);
-    }
-}
-
-#[inline(always)]
-#[allow(clippy::too_many_arguments)]
-fn corner<T: Real>(
-    columns: &mut [T],
-    diagonal: &mut [T],
-    f: &[T],
-    gain: &mut [T],
-    j: usize,
-    width: usize,
-    sums: &[T; BLOCK],
-    chain: &mut Chain<T>,
-) -> ([T; BLOCK], [T; BLOCK]) {
-    macro_rules! by_width {
-        ($($c:literal)*) => {
-            match width {
-                $($c => triangle::<T, $c>(columns, diagonal, f, gain, j, sums, chain),)*
-                _ => triangle::<T, 8>(columns, diagonal, f, gain, j, sums, chain),
+        let mut chain = Chain::START;
+        let mut ahead = dots::<T, V, GROUP>(self.columns, 0, BLOCK, self.f);
+        for j in (0..n).step_by(BLOCK) {
+            let (w, width, next) = (ahead, BLOCK.min(n - j), j + BLOCK);
+            if next < n {
+                // needs nothing of this block: the machine does both at once
+                ahead = dots::<T, V, GROUP>(self.columns, next, BLOCK.min(n - next), self.f);
             }
-        };
+            let d = &mut self.diagonal[j..j + width];
+            let (slope, v) = with_width!(width, extend::<T>(&mut chain, d, self.growth, &w));
+            rotate::<T, V, GROUP>(self.columns, j, width, self.gain, (&slope, &v));
+        }
+        for (t, &error) in self.errors.iter().enumerate() {
+            let theta = &mut self.theta[t * n..(t + 1) * n];
+            add_scaled_by::<T, V>(theta, error * chain.inverse_a, self.gain);
+        }
+        chain.measured()
     }
-    by_width!(1 2 3 4 5 6 7)
 }
 
-/// The triangle of a block: returns the slopes and v of its columns.
+/// [`Chain::extend`] for the last of the columns, or eight.
 #[inline(always)]
-fn triangle<T: Real, const C: usize>(
-    columns: &mut [T],
-    diagonal: &mut [T],
-    f: &[T],
-    gain: &mut [T],
-    j: usize,
-    sums: &[T; BLOCK],
+fn extend<T: Real, const C: usize>(
     chain: &mut Chain<T>,
-) -> ([T; BLOCK], [T; BLOCK]) {
-    let f: &[T; C] = f[j..].first_chunk().unwrap();
-    let d: &mut [T; C] = diagonal[j..].first_chunk_mut().unwrap();
-    let gain: &mut [T; C] = gain[j..].first_chunk_mut().unwrap();
-    let mut u = [[T::ZERO; C]; C];
-    for c in 0..C {
-        let from = start(j + c) + j;
-        let column = &columns[from..from + c];
-        for i in 0..c {
-            u[c][i] = column[i];
-        }
+    d: &mut [T],
+    growth: T,
+    w: &PerColumn<T>,
+) -> (PerColumn<T>, PerColumn<T>) {
+    let mut all = ([T::ZERO; BLOCK], [T::ZERO; BLOCK]);
+    if let (Some(d), Some(w)) = (d.first_chunk_mut::<C>(), w.first_chunk::<C>()) {
+        let (slope, v) = chain.extend(d, growth, w);
+        all.0[..C].copy_from_slice(&slope);
+        all.1[..C].copy_from_slice(&v);
     }
-    let mut w = *f;
-    for c in 0..C {
+    all
+}
+
+/// All of it for N parameters, at most eight.
+#[inline(always)]
+fn small<T: Real, const N: usize>(task: Bierman<'_, T>) -> Measured<T> {
+    let Bierman { columns, diagonal, growth, f, gain, theta, errors } = task;
+    let mut chain = Chain::START;
+    let (Some(d), Some(f), Some(gain)) =
+        (diagonal.first_chunk_mut::<N>(), f.first_chunk::<N>(), gain.first_chunk_mut::<N>())
+    else {
+        return chain.measured();
+    };
+    let mut u = load_triangle::<T, N>(columns, 0);
+    let mut w = [T::ZERO; N];
+    for c in 0..N {
+        w[c] = f[c];
         for i in 0..c {
             w[c] = u[c][i].mul_add(f[i], w[c]);
         }
-        w[c] += sums[c];
     }
-    let (mut slope, mut v) = ([T::ZERO; BLOCK], [T::ZERO; BLOCK]);
-    for c in 0..C {
-        v[c] = d[c] * w[c];
-    }
-    let Chain { mut s, mut a, mut inverse_a } = *chain;
-    for c in 0..C {
-        slope[c] = -(w[c] * inverse_a);
-        s = w[c].mul_add(v[c], s);
-        let next = w[c].mul_add(v[c], a);
-        inverse_a = T::ONE / next;
-        d[c] = (d[c] * (a * inverse_a)).max(T::FLOOR);
-        a = next;
-    }
-    *chain = Chain { s, a, inverse_a };
-    let mut k = [T::ZERO; C];
-    for c in 0..C {
+    let (slope, v) = chain.extend(d, growth, &w);
+    let mut k = [T::ZERO; N];
+    for c in 0..N {
         for i in 0..c {
             let before = u[c][i];
             u[c][i] = slope[c].mul_add(k[i], before);
@@ -201,13 +161,15 @@ fn triangle<T: Real, const C: usize>(
         }
         k[c] = v[c];
     }
-    *gain = k;
-    for c in 0..C {
-        let from = start(j + c) + j;
-        let column = &mut columns[from..from + c];
-        for i in 0..c {
-            column[i] = u[c][i];
+    store_triangle(columns, 0, &u);
+    for (t, &error) in errors.iter().enumerate() {
+        let step = error * chain.inverse_a;
+        if let Some(theta) = theta[t * N..].first_chunk_mut::<N>() {
+            for i in 0..N {
+                theta[i] = step.mul_add(k[i], theta[i]);
+            }
         }
     }
-    (slope, v)
+    *gain = k;
+    chain.measured()
 }

@@ -1,0 +1,49 @@
+//! The kernels with fused multiply-add: right, and the same bits on every level.
+
+#[path = "../../forgetting/tests/kernels_against_dense/mod.rs"]
+mod kernels_against_dense;
+
+use forgetting_cpu::{level, Fused, Level, VARIABLE};
+use kernels_against_dense::{check, sizes};
+use std::process::Command;
+
+/// A hash of all results (FNV-1a), after they were compared with dense ones.
+fn bits() -> u64 {
+    let mut hash = 0xcbf2_9ce4_8422_2325u64;
+    for seed in 0..4 {
+        for n in sizes() {
+            for x in check::<Fused<f64>>(n, seed).into_iter().chain(check::<Fused<f32>>(n, seed)) {
+                hash = (hash ^ x.to_bits()).wrapping_mul(0x0100_0000_01b3);
+            }
+        }
+    }
+    hash
+}
+
+#[test]
+fn this_level() {
+    println!("level {:?} bits {:016x}", level(), bits());
+}
+
+#[test]
+fn every_level_gives_the_same_bits() {
+    let here = std::env::current_exe().unwrap();
+    let run = |name: &str| {
+        let mut test = Command::new(&here);
+        let test = test.args(["this_level", "--exact", "--nocapture"]).env(VARIABLE, name);
+        let output = test.output().unwrap();
+        assert!(output.status.success(), "{name}: {}", String::from_utf8_lossy(&output.stderr));
+        let text = String::from_utf8(output.stdout).unwrap();
+        let line = text.lines().find_map(|line| line.split_once("level ")).unwrap().1;
+        line.split_once(" bits ").map(|(level, bits)| (level.to_owned(), bits.to_owned())).unwrap()
+    };
+    let (best, bits) = run("");
+    for (name, level) in
+        [("baseline", Level::Baseline), ("avx2", Level::Fused), ("avx512", Level::Wide)]
+    {
+        let (ran, got) = run(name);
+        println!("{name}: {ran} {got}");
+        assert_eq!(got, bits, "{name} beside {best}");
+        assert!(ran == format!("{level:?}") || ran == best);
+    }
+}

@@ -1,0 +1,115 @@
+//! Vectors of any length: products and sums.
+
+use crate::vector::Vector;
+use crate::{Kernel, Real};
+
+/// Σ aᵢ bᵢ over the shorter of the two.
+pub struct Dot<'a, T> {
+    pub a: &'a [T],
+    pub b: &'a [T],
+}
+
+impl<T: Real> Kernel<T> for Dot<'_, T> {
+    type Output = T;
+
+    #[inline(always)]
+    fn size(&self) -> usize {
+        self.a.len()
+    }
+
+    #[inline(always)]
+    fn run<V: Vector<T>, const GROUP: usize>(self) -> T {
+        let length = self.a.len().min(self.b.len());
+        let (a, a_rest) = T::chunks(&self.a[..length]);
+        let (b, b_rest) = T::chunks(&self.b[..length]);
+        let mut sum = T::ZERO;
+        if !a.is_empty() {
+            let mut lanes = V::splat(T::ZERO);
+            for (a, b) in a.iter().zip(b) {
+                lanes = V::load(a).mul_add(V::load(b), lanes);
+            }
+            sum = lanes.sum();
+        }
+        for (&a, &b) in a_rest.iter().zip(b_rest) {
+            sum = a.mul_add(b, sum);
+        }
+        sum
+    }
+}
+
+/// `y` += c·`x`
+pub struct AddScaled<'a, T> {
+    pub y: &'a mut [T],
+    pub c: T,
+    pub x: &'a [T],
+}
+
+impl<T: Real> Kernel<T> for AddScaled<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn size(&self) -> usize {
+        self.x.len()
+    }
+
+    #[inline(always)]
+    fn run<V: Vector<T>, const GROUP: usize>(self) {
+        add_scaled_by::<T, V>(self.y, self.c, self.x);
+    }
+}
+
+/// `y` += c·`x`, inside another kernel.
+#[inline(always)]
+pub fn add_scaled_by<T: Real, V: Vector<T>>(y: &mut [T], c: T, x: &[T]) {
+    let length = y.len().min(x.len());
+    let (y, y_rest) = T::chunks_mut(&mut y[..length]);
+    let (x, x_rest) = T::chunks(&x[..length]);
+    let lanes = V::splat(c);
+    for (y, x) in y.iter_mut().zip(x) {
+        lanes.mul_add(V::load(x), V::load(y)).store(y);
+    }
+    for (y, &x) in y_rest.iter_mut().zip(x_rest) {
+        *y = c.mul_add(x, *y);
+    }
+}
+
+/// φ·θ and φ·φ, with φ copied on the way: what the arrival of a sample needs.
+pub struct Arrive<'a, T> {
+    pub phi: &'a [T],
+    pub theta: &'a [T],
+    pub copy: &'a mut [T],
+}
+
+impl<T: Real> Kernel<T> for Arrive<'_, T> {
+    type Output = (T, T);
+
+    #[inline(always)]
+    fn size(&self) -> usize {
+        self.phi.len()
+    }
+
+    #[inline(always)]
+    fn run<V: Vector<T>, const GROUP: usize>(self) -> (T, T) {
+        let n = self.phi.len();
+        let (phi, phi_rest) = T::chunks(self.phi);
+        let (theta, theta_rest) = T::chunks(&self.theta[..n]);
+        let (copy, copy_rest) = T::chunks_mut(&mut self.copy[..n]);
+        let (mut product, mut square) = (T::ZERO, T::ZERO);
+        if !phi.is_empty() {
+            let (mut products, mut squares) = (V::splat(T::ZERO), V::splat(T::ZERO));
+            for ((phi, theta), copy) in phi.iter().zip(theta).zip(copy) {
+                let phi = V::load(phi);
+                products = phi.mul_add(V::load(theta), products);
+                squares = phi.mul_add(phi, squares);
+                phi.store(copy);
+            }
+            (product, square) = (products.sum(), squares.sum());
+        }
+        for ((&phi, &theta), copy) in phi_rest.iter().zip(theta_rest).zip(copy_rest) {
+            product = phi.mul_add(theta, product);
+            square = phi.mul_add(phi, square);
+            *copy = phi;
+        }
+        (product, square)
+    }
+}
