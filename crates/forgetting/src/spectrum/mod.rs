@@ -181,9 +181,13 @@ impl<T: Real> Kernel<T> for Update<'_, T> {
     fn run<V: Vector<T>, const GROUP: usize>(self) -> bool {
         let Self { poles, weights, rows, turn, roots, product } = self;
         let active = poles.len();
-        secular::roots(poles, weights, turn, roots);
         // the product is free until the vectors are combined
-        let sound = secular::vectors(poles, weights, turn, &mut product[..active]);
+        let buffer = &mut product[..active];
+        for (square, &z) in buffer.iter_mut().zip(weights) {
+            *square = z * z;
+        }
+        secular::roots(poles, buffer, turn, roots);
+        let sound = secular::vectors(poles, weights, turn, buffer);
         if sound {
             combine::combine::<T, V, GROUP>(turn, active, rows, product);
         }
@@ -217,5 +221,92 @@ fn rotate<T: Real>(x: &mut [T], y: &mut [T], cosine: T, sine: T) {
         let (before_x, before_y) = (*x, *y);
         *x = cosine * before_x - sine * before_y;
         *y = sine * before_x + cosine * before_y;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Spectrum;
+    use crate::{Dynamic, Factor};
+    use alloc::vec::Vec;
+
+    /// Numbers in (−1, 1) without a pattern.
+    fn noise(seed: u64) -> impl FnMut() -> f64 {
+        let mut state = seed;
+        move || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        }
+    }
+
+    fn inner(a: &[f64], b: &[f64]) -> f64 {
+        a.iter().zip(b).map(|(a, b)| a * b).sum()
+    }
+
+    /// The largest |v_i·v_k − δ_ik| and, relative to √(r_i r_k), the largest |v_i R v_k − r_i δ_ik|.
+    fn residuals(spectrum: &Spectrum<Dynamic<f64>>, factor: &Factor<Dynamic<f64>>) -> (f64, f64) {
+        let n = factor.parameters();
+        let solved: Vec<Vec<f64>> = (0..n)
+            .map(|i| {
+                let mut z = spectrum.vector(i).to_vec();
+                factor.solve(&mut z);
+                let roots = factor.diagonal_elements().iter();
+                z.iter_mut().zip(roots).for_each(|(z, d)| *z /= d.sqrt());
+                z
+            })
+            .collect();
+        let (mut turned, mut off) = (0.0f64, 0.0f64);
+        for i in 0..n {
+            for k in 0..n {
+                let one = f64::from(i == k);
+                turned = turned.max((inner(spectrum.vector(i), spectrum.vector(k)) - one).abs());
+                let (r, s) = (spectrum.information()[i], spectrum.information()[k]);
+                let scale = (r * s).sqrt();
+                off = off.max((inner(&solved[i], &solved[k]) - r * one).abs() / scale);
+            }
+        }
+        (turned, off)
+    }
+
+    #[test]
+    fn follows_what_samples_add() {
+        for n in [2, 3, 7, 20, 70] {
+            let memory = Dynamic::<f64>::new(n, 1, 1).unwrap();
+            let mut factor = Factor::scalar(memory, 100.0).unwrap();
+            let (mut spectrum, mut random) = (Spectrum::new(memory), noise(n as u64));
+            let mut gain = alloc::vec![0.0; n];
+            spectrum.follow(&factor);
+            for k in 0..100 {
+                let mut row: Vec<f64> = (0..n).map(|_| random()).collect();
+                if k % 3 == 0 {
+                    row[n / 2..].fill(0.0);
+                }
+                factor.add_information(&row, &mut gain);
+                spectrum.learn(&row);
+            }
+            let (turned, off) = residuals(&spectrum, &factor);
+            // measured 4e-14 and 3e-13 for n = 70
+            assert!(turned < 1e-12 && off < 1e-11, "n = {n}: {turned:e} {off:e}");
+        }
+    }
+
+    #[test]
+    fn renews_itself_from_the_factor_at_any_condition() {
+        let memory = Dynamic::<f64>::new(12, 1, 1).unwrap();
+        let (mut random, mut gain) = (noise(5), [0.0; 12]);
+        let mut factor = Factor::scalar(memory, 1e9).unwrap();
+        for k in 0..10 {
+            let size = 10f64.powi(k - 4);
+            let row: Vec<f64> = (0..12).map(|_| size * random()).collect();
+            factor.add_information(&row, &mut gain);
+        }
+        let mut spectrum = Spectrum::new(memory);
+        spectrum.renew(&factor);
+        let values = spectrum.information();
+        assert!(values[11] / values[0] > 1e15, "condition {:e}", values[11] / values[0]);
+        let (turned, off) = residuals(&spectrum, &factor);
+        assert!(turned < 1e-14, "{turned:e}");
+        // eps times the root of the condition: what the angle of an eigenvector is worth
+        assert!(off < f64::EPSILON * (values[11] / values[0]).sqrt() * 10.0, "{off:e}");
     }
 }
