@@ -189,6 +189,9 @@ where
         if !(lambda > M::Real::ZERO && lambda <= M::Real::ONE) {
             return Err(Error::value("forgetting_factor", lambda.to_f64(), "(0, 1]"));
         }
+        // less than the rounding unit forgets every digit all the same, and would swamp those of
+        // the directions that are kept
+        let lambda = lambda.max(M::Real::EPSILON);
         let (Forgotten { rank, skipped, forgetting_factor }, growth) =
             match self.rule.scaling(lambda) {
                 Some(growth) if sample.rows() == 1 => {

@@ -3,6 +3,7 @@
 use crate::subjects::{subjects, update, Subject};
 use forgetting::{Error, Noise, Real};
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 
 /// Numbers of every size, and now and then none.
 fn number() -> impl Strategy<Value = f64> {
@@ -96,7 +97,7 @@ fn check<T: Real>(subject: &Subject, trial: &Trial) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 3000, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 3000, rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() })]
 
     #[test]
     fn no_input_breaks_an_estimator(trial in trial()) {
