@@ -1,7 +1,7 @@
 # A few words that do whole things. The README, CI and people use the same ones.
 #   make demo    set up, identify two measured records, print where the reports are
 #   make test    set up, then format, lint, types, Rust tests, Python tests
-#   make bench   speed, beside other packages (minutes); bench-full for all of them
+#   make bench   speed beside NumPy by hand and padasip; bench-full with more repetitions and rules
 #   make docs    the documentation, warnings as errors
 #   make stubs   write again what is generated from the registries: stubs, README table, rule pages
 
@@ -52,10 +52,13 @@ docs: build
 	$(BIN)/sphinx-build -W -b html docs docs/_build
 
 bench: build
+	$(PIP) install padasip
 	$(BIN)/python -m benchmarks --quick
 
 bench-full: build
+	$(PIP) install padasip
 	$(BIN)/python -m benchmarks
+	$(BIN)/python benchmarks/variable_direction.py
 
 clean:
 	cargo clean

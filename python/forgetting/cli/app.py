@@ -8,6 +8,8 @@ import sys
 import typer
 
 import forgetting as fg
+from forgetting.cli.certify import certify
+from forgetting.cli.compare import compare
 from forgetting.cli.demo import demo
 from forgetting.cli.identify import identify
 from forgetting.cli.rules import rules
@@ -26,6 +28,8 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 app.command()(identify)
+app.command()(compare)
+app.command()(certify)
 app.command()(rules)
 app.command()(demo)
 app.command()(reproduce)
