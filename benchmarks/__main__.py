@@ -45,6 +45,20 @@ def step_time(rule: fg.Rule, n: int, dtype: str, repetitions: int) -> float:
     return work / samples * 1e9
 
 
+def growth(name: str, repetitions: int) -> tuple[float, float]:
+    """The exponent of time over n = 16 to 256, and microseconds a sample at n = 64."""
+    sizes, times = (16, 32, 64, 128, 256), []
+    for n in sizes:
+        samples = max(20, 1_000_000 // (n * n))
+        random = np.random.default_rng(n)
+        phi, y = random.normal(size=(samples, n)), random.normal(size=samples)
+        est = fg.RLS(n, rule=fg.rule(name))
+        work = least(lambda: est.run(phi, y, outputs=["error"]), repetitions)  # noqa: B023
+        times.append(work / samples)
+    slope = np.polyfit(np.log(sizes), np.log(times), 1)[0]
+    return float(slope), times[2] * 1e6
+
+
 def numpy_step(theta: np.ndarray, p: np.ndarray, phi: np.ndarray, y: float) -> None:
     """The textbook's covariance form, as written by hand."""
     gain = p @ phi / (LAMBDA + phi @ p @ phi)
@@ -105,6 +119,14 @@ def main() -> None:
     for n in SIZES:
         times = [step_time(rule, n, dtype, repetitions) for _, rule, dtype in columns]
         print(f"| {n} | " + " | ".join(f"{t:.0f}" for t in times) + " |")
+    print(
+        "\n| rule | cost | exponent over n = 16 to 256 | µs a sample, n = 64 |\n|---|---|---|---|"
+    )
+    for rule in fg.rules():
+        if any(parameter["required"] for parameter in rule["parameters"]):
+            continue  # made from a function of the user's
+        slope, microseconds = growth(rule["name"], max(2, repetitions // 5))
+        print(f"| {rule['name']} | {rule['cost']} | {slope:.2f} | {microseconds:.1f} |")
     print("\n| one call from Python, n = 4 | µs | times `forgetting` |\n|---|---|---|")
     calls = call_times(repetitions)
     for name, microseconds in calls:
