@@ -74,7 +74,7 @@ fn detected() -> Level {
 
 /// Kernels for fewer parameters than this gain nothing from vectors of 512 bits.
 #[cfg(target_arch = "x86_64")]
-const WIDE_FROM: usize = 16;
+const WIDE_FROM: usize = 9;
 
 /// The vectors of a number type for each level.
 #[cfg(target_arch = "x86_64")]

@@ -6,9 +6,9 @@
 //! correct   θ₊ = θ + R₊⁻¹ φᵀ Γ⁻¹ (y − φ θ)     θ changes here and nowhere else
 //! ```
 
-use crate::evidence::Known;
-use crate::factor::kernel::dot;
-use crate::intake::{whiten, Intake, Noise};
+use crate::evidence::{blame_squares, Known};
+use crate::factor::kernel::{dot, Stepped};
+use crate::intake::{blame, whiten, Intake, Noise};
 use crate::measure::{leverage, measure};
 use crate::monitor::{Health, Monitor, Seen};
 use crate::rates::Rate;
@@ -73,9 +73,42 @@ where
     rate_state: R::State,
     samples: u64,
     windup_limit: M::Real,
+    /// if every sample is one row for one target and P is only scaled, always by the same
+    steady: Option<Steady<M::Real>>,
     monitor: Option<Monitor<M>>,
     intake: Intake<M>,
     work: Work<M>,
+}
+
+/// λ and the growth of P that it makes, the same for every sample.
+#[derive(Clone, Copy, Debug)]
+struct Steady<T> {
+    lambda: T,
+    growth: T,
+}
+
+/// P ← `growth`·P, of n parameters.
+#[inline]
+fn scaled<T: Real>(growth: T, n: usize) -> Forgotten {
+    if growth == T::ONE {
+        Forgotten::rank(0).with_factor(1.0)
+    } else {
+        Forgotten::rank(n)
+    }
+}
+
+/// Why a sample was not used: itself, or else `room`.
+#[cold]
+fn refusal<T: Real>(phi: &[T], y: &[T], stepped: &Stepped<T>, room: Result<(), Error>) -> Error {
+    let Stepped { error, squares, .. } = *stepped;
+    let largest = error.abs();
+    if !(largest <= T::CEILING) {
+        return blame(phi, y, largest);
+    }
+    match room {
+        Err(error) if squares <= T::CEILING => error,
+        _ => blame_squares(phi, squares),
+    }
 }
 
 impl<F, R, W, M> Estimator<F, R, W, M>
@@ -92,7 +125,13 @@ where
     pub fn new(rule: F, rate: R, weighting: W, prior: Prior<M>) -> Self {
         let memory = prior.memory();
         let factor = prior.factor();
+        let single = (memory.rows(), memory.targets()) == (1, 1) && weighting.is_equal();
+        let steady = rate
+            .constant()
+            .filter(|_| single)
+            .and_then(|lambda| rule.scaling(lambda).map(|growth| Steady { lambda, growth }));
         Self {
+            steady,
             theta: prior.theta().clone(),
             rule_state: rule.start(memory),
             rate_state: rate.start(memory),
@@ -171,6 +210,50 @@ where
         y: &[M::Real],
         noise: Noise<'_, M::Real>,
     ) -> Result<Update<'_, M::Real>, Error> {
+        match (self.steady, noise) {
+            (Some(steady), Noise::Unit) if self.monitor.is_none() => self.step(steady, phi, y),
+            _ => self.update_in_steps(phi, y, noise),
+        }
+    }
+
+    /// The whole recursion in one pass, where all that the sample decides is the error.
+    #[inline]
+    fn step(
+        &mut self,
+        steady: Steady<M::Real>,
+        phi: &[M::Real],
+        y: &[M::Real],
+    ) -> Result<Update<'_, M::Real>, Error> {
+        let n = self.prior.memory().parameters();
+        Error::check_length("phi", phi.len(), n)?;
+        Error::check_length("y", y.len(), 1)?;
+        let (gain, theta) = (self.work.gain.as_mut(), self.theta.as_mut());
+        let (stepped, room) = self.factor.step(steady.growth, (phi, y[0]), gain, theta);
+        let error = self.intake.innovations.as_mut();
+        error[0] = stepped.error;
+        let Some(measured) = stepped.measured else {
+            return Err(refusal(phi, y, &stepped, room));
+        };
+        self.samples += 1;
+        let Forgotten { rank, forgetting_factor, .. } = scaled(steady.growth, n);
+        Ok(Update {
+            error,
+            leverage: measured.leverage,
+            forgetting_factor: forgetting_factor.map_or(steady.lambda, M::Real::from_f64),
+            rank,
+            skipped: None,
+            windup: measured.largest > self.windup_limit,
+        })
+    }
+
+    /// The recursion step by step.
+    #[inline(never)]
+    fn update_in_steps(
+        &mut self,
+        phi: &[M::Real],
+        y: &[M::Real],
+        noise: Noise<'_, M::Real>,
+    ) -> Result<Update<'_, M::Real>, Error> {
         let squares = self.intake.take(self.prior.memory(), self.theta.as_ref(), phi, y)?;
         let memory = self.prior.memory();
         let intake = &mut self.intake;
@@ -196,8 +279,7 @@ where
             match self.rule.scaling(lambda) {
                 Some(growth) if sample.rows() == 1 => {
                     self.factor.reserve(growth, M::Real::ZERO)?;
-                    let rank = if growth == M::Real::ONE { 0 } else { memory.parameters() };
-                    (Forgotten::rank(rank), growth)
+                    (scaled(growth, memory.parameters()), growth)
                 }
                 _ => {
                     let step = Step {

@@ -82,10 +82,7 @@ impl<T: Real> Known<T> {
     ) -> Result<Self, Error> {
         let sum = sample.squared_error();
         if !(squared_regressors <= T::CEILING) {
-            if let Some(index) = sample.regressors().iter().position(|x| !x.is_finite()) {
-                return Err(not_finite("phi", index, sample.regressors()[index]));
-            }
-            return Err(out_of_range("phi (its squared length)", squared_regressors));
+            return Err(blame_squares(sample.regressors(), squared_regressors));
         }
         if !sum.is_finite() {
             return Err(out_of_range("error (squared and whitened)", sum));
@@ -201,6 +198,15 @@ impl<T: Real> Known<T> {
             targets,
             samples,
         }
+    }
+}
+
+/// Why φ̄ cannot be used: a number that is none, or its length.
+#[cold]
+pub(crate) fn blame_squares<T: Real>(regressors: &[T], squares: T) -> Error {
+    match regressors.iter().position(|x| !x.is_finite()) {
+        Some(index) => not_finite("phi", index, regressors[index]),
+        None => out_of_range("phi (its squared length)", squares),
     }
 }
 

@@ -1,7 +1,8 @@
 //! Adding information: P⁻¹ ← P⁻¹ + fᵀf. P can only shrink, and never below D ≥ floor.
 
-use super::{kernel, Factor};
-use crate::{Memory, Real};
+use super::kernel::{self, Step, Stepped};
+use super::Factor;
+use crate::{Error, Memory, Real};
 
 /// What one scalar measurement with unit variance brings.
 #[derive(Clone, Copy, Debug)]
@@ -12,6 +13,8 @@ pub struct Measured<T> {
     pub variance: T,
     /// 1 / a
     pub inverse_variance: T,
+    /// the largest element of D after it
+    pub largest: T,
 }
 
 impl<M: Memory> Factor<M> {
@@ -36,6 +39,31 @@ impl<M: Memory> Factor<M> {
     ) -> Measured<M::Real> {
         let factor = (self.columns.as_mut(), self.diagonal.as_mut(), growth);
         kernel::measure(factor, f, gain, correct)
+    }
+
+    /// e = y − φθ, P ← `growth`·P, [`Factor::add_information`] and θ ← θ + P·φᵀe, all or nothing:
+    /// the error, ‖φ‖² and what was measured, unless the sample or `growth` is too large.
+    ///
+    /// # Errors
+    /// [`Error::Range`] as for [`Factor::reserve`], if the sample itself is one to accept.
+    #[inline]
+    pub(crate) fn step(
+        &mut self,
+        growth: M::Real,
+        (phi, y): (&[M::Real], M::Real),
+        gain: &mut [M::Real],
+        theta: &mut [M::Real],
+    ) -> (Stepped<M::Real>, Result<(), Error>) {
+        let before = self.trace_bound;
+        let room = self.reserve(growth, M::Real::ZERO);
+        let (columns, diagonal) = (self.columns.as_mut(), self.diagonal.as_mut());
+        let refused = room.is_err();
+        let stepped =
+            M::Real::compute(Step { columns, diagonal, growth, phi, y, gain, theta, refused });
+        if stepped.measured.is_none() {
+            self.trace_bound = before;
+        }
+        (stepped, room)
     }
 
     /// f·P·fᵀ for n numbers `f`.

@@ -84,6 +84,10 @@ impl<M: Memory> Rate<M> for Constant<M> {
 
     fn start(&self, _: M) {}
 
+    fn constant(&self) -> Option<M::Real> {
+        Some(self.forgetting_factor)
+    }
+
     #[inline]
     fn forgetting_factor(&self, (): &(), _: &Evidence<'_, '_, M>) -> Result<M::Real, Error> {
         Ok(self.forgetting_factor)

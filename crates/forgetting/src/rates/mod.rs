@@ -53,6 +53,11 @@ pub trait Rate<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
         Needs::Errors
     }
 
+    /// λ, if it is the same for every sample and nothing is learned.
+    fn constant(&self) -> Option<M::Real> {
+        None
+    }
+
     /// λ_k in (0, 1], from what is known before the sample is used.
     ///
     /// A design that finds λ for the next sample keeps it in its state and returns it here.
@@ -151,6 +156,12 @@ macro_rules! registry {
             fn needs(&self) -> Needs {
                 match self {
                     $($(#[$only])* Self::$Rate(rate) => rate.needs(),)*
+                }
+            }
+
+            fn constant(&self) -> Option<M::Real> {
+                match self {
+                    $($(#[$only])* Self::$Rate(rate) => rate.constant(),)*
                 }
             }
 

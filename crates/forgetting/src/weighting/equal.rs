@@ -46,6 +46,10 @@ impl<M: Memory> Weighting<M> for Equal<M> {
 
     fn describe(&self, _: &mut dyn FnMut(&'static str, Value<'_>)) {}
 
+    fn is_equal(&self) -> bool {
+        true
+    }
+
     #[inline]
     fn weight(&self, _: &Evidence<'_, '_, M>) -> M::Real {
         M::Real::ONE

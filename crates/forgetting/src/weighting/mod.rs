@@ -35,6 +35,11 @@ pub trait Weighting<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
         Needs::Errors
     }
 
+    /// Whether w = 1 for every sample.
+    fn is_equal(&self) -> bool {
+        false
+    }
+
     /// w, positive, from the whitened innovation.
     fn weight(&self, evidence: &Evidence<'_, '_, M>) -> M::Real;
 
@@ -98,6 +103,12 @@ macro_rules! registry {
             fn needs(&self) -> Needs {
                 match self {
                     $(Self::$Weighting(weighting) => weighting.needs(),)*
+                }
+            }
+
+            fn is_equal(&self) -> bool {
+                match self {
+                    $(Self::$Weighting(weighting) => weighting.is_equal(),)*
                 }
             }
 

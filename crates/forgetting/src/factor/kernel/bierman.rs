@@ -1,7 +1,7 @@
 //! Measure and correct: Bierman's update with unit variance, P⁻¹ ← P⁻¹ + fᵀf, and θ ← θ + P₊fᵀe.
 //!
 //! ```text
-//! for each column j of U:   w = f_j + u·f,  v = D_j w,  s' = s + w v,  a = 1 + s
+//! for each column j of U:   w = f_j + u·f,  v = D_j w,  a' = a + w v
 //!                           D_j ← D_j a / a',  u ← u − (w / a) k,  k ← k + v u (the u of before)
 //! then                      θ ← θ + k e / a'
 //! ```
@@ -50,8 +50,7 @@ impl<T: Real> Chain<T> {
         growth: T,
         w: &[T; C],
     ) -> ([T; C], [T; C]) {
-        let (mut v, mut a, mut inverse) = ([T::ZERO; C], [T::ZERO; C], [T::ZERO; C]);
-        let mut product = [T::ZERO; C];
+        let (mut v, mut a, mut product) = ([T::ZERO; C], [T::ZERO; C], [T::ZERO; C]);
         for c in 0..C {
             d[c] *= growth;
             v[c] = d[c] * w[c];
@@ -62,24 +61,37 @@ impl<T: Real> Chain<T> {
             s += product[c];
             a[c] = T::ONE + s;
         }
-        for c in 0..C {
-            inverse[c] = T::ONE / a[c];
-        }
-        let mut slope = [T::ZERO; C];
         let (mut a_before, mut inverse_before) = (T::ONE + self.s, self.inverse_a);
+        let mut slope = [T::ZERO; C];
         for c in 0..C {
+            let inverse_a = T::ONE / a[c];
             slope[c] = -(w[c] * inverse_before);
-            d[c] = (d[c] * (a_before * inverse[c])).max(T::FLOOR);
-            (a_before, inverse_before) = (a[c], inverse[c]);
+            d[c] = (d[c] * (a_before * inverse_a)).max(T::FLOOR);
+            (a_before, inverse_before) = (a[c], inverse_a);
         }
         *self = Self { s, inverse_a: inverse_before };
         (slope, v)
     }
 
     #[inline(always)]
-    fn measured(self) -> Measured<T> {
-        Measured { leverage: self.s, variance: T::ONE + self.s, inverse_variance: self.inverse_a }
+    fn measured(self, d: &[T]) -> Measured<T> {
+        let Self { s, inverse_a } = self;
+        let largest = largest(d);
+        Measured { leverage: s, variance: T::ONE + s, inverse_variance: inverse_a, largest }
     }
+}
+
+/// The largest of positive numbers, eight side by side.
+#[inline(always)]
+fn largest<T: Real>(numbers: &[T]) -> T {
+    let (eights, rest) = numbers.as_chunks::<BLOCK>();
+    let mut most = [T::ZERO; BLOCK];
+    for eight in eights {
+        for lane in 0..BLOCK {
+            most[lane] = most[lane].max(eight[lane]);
+        }
+    }
+    most.iter().chain(rest).fold(T::ZERO, |most, &x| most.max(x))
 }
 
 impl<T: Real> Kernel<T> for Bierman<'_, T> {
@@ -94,29 +106,38 @@ impl<T: Real> Kernel<T> for Bierman<'_, T> {
     fn run<V: Vector<T>, const GROUP: usize>(self) -> Measured<T> {
         let n = self.diagonal.len();
         if n <= BLOCK {
-            return with_width!(n, small::<T>(self));
+            with_width!(n, small::<T>(self))
+        } else {
+            blocks::<T, V, GROUP>(self)
         }
-        let mut chain = Chain::START;
-        let mut ahead = dots::<T, V, GROUP>(self.columns, 0, BLOCK, self.f);
-        for j in (0..n).step_by(BLOCK) {
-            let (w, width, next) = (ahead, BLOCK.min(n - j), j + BLOCK);
-            if next < n {
-                // needs nothing of this block: the machine does both at once
-                ahead = dots::<T, V, GROUP>(self.columns, next, BLOCK.min(n - next), self.f);
-            }
-            let d = &mut self.diagonal[j..j + width];
-            let (slope, v) = with_width!(width, extend::<T>(&mut chain, d, self.growth, &w));
-            rotate::<T, V, GROUP>(self.columns, j, width, self.gain, (&slope, &v));
-        }
-        for (t, &error) in self.errors.iter().enumerate() {
-            let theta = &mut self.theta[t * n..(t + 1) * n];
-            add_scaled_by::<T, V>(theta, error * chain.inverse_a, self.gain);
-        }
-        chain.measured()
     }
 }
 
-/// [`Chain::extend`] for the last of the columns, or eight.
+/// All of it for more than eight parameters.
+#[inline(always)]
+pub fn blocks<T: Real, V: Vector<T>, const GROUP: usize>(task: Bierman<'_, T>) -> Measured<T> {
+    let Bierman { columns, diagonal, growth, f, gain, theta, errors } = task;
+    let n = diagonal.len();
+    let mut chain = Chain::START;
+    let mut ahead = dots::<T, V, GROUP>(columns, 0, BLOCK, f);
+    for j in (0..n).step_by(BLOCK) {
+        let (w, width, next) = (ahead, BLOCK.min(n - j), j + BLOCK);
+        if next < n {
+            // needs nothing of this block: the machine does both at once
+            ahead = dots::<T, V, GROUP>(columns, next, BLOCK.min(n - next), f);
+        }
+        let d = &mut diagonal[j..j + width];
+        let (slope, v) = with_width!(width, extend::<T>(&mut chain, d, growth, &w));
+        rotate::<T, V, GROUP>(columns, j, width, gain, (&slope, &v));
+    }
+    for (t, &error) in errors.iter().enumerate() {
+        let theta = &mut theta[t * n..(t + 1) * n];
+        add_scaled_by::<T, V>(theta, error * chain.inverse_a, gain);
+    }
+    chain.measured(diagonal)
+}
+
+/// [`Chain::extend`] for the last of the columns, or eight: the slope and v of each.
 #[inline(always)]
 fn extend<T: Real, const C: usize>(
     chain: &mut Chain<T>,
@@ -124,46 +145,54 @@ fn extend<T: Real, const C: usize>(
     growth: T,
     w: &PerColumn<T>,
 ) -> (PerColumn<T>, PerColumn<T>) {
-    let mut all = ([T::ZERO; BLOCK], [T::ZERO; BLOCK]);
+    let (mut slope, mut v) = ([T::ZERO; BLOCK], [T::ZERO; BLOCK]);
     if let (Some(d), Some(w)) = (d.first_chunk_mut::<C>(), w.first_chunk::<C>()) {
-        let (slope, v) = chain.extend(d, growth, w);
-        all.0[..C].copy_from_slice(&slope);
-        all.1[..C].copy_from_slice(&v);
+        let found = chain.extend(d, growth, w);
+        slope[..C].copy_from_slice(&found.0);
+        v[..C].copy_from_slice(&found.1);
     }
-    all
+    (slope, v)
 }
 
-/// All of it for N parameters, at most eight.
+/// All of it for N parameters, at most eight, in registers.
 #[inline(always)]
-fn small<T: Real, const N: usize>(task: Bierman<'_, T>) -> Measured<T> {
+pub fn small<T: Real, const N: usize>(task: Bierman<'_, T>) -> Measured<T> {
     let Bierman { columns, diagonal, growth, f, gain, theta, errors } = task;
-    let mut chain = Chain::START;
     let (Some(d), Some(f), Some(gain)) =
         (diagonal.first_chunk_mut::<N>(), f.first_chunk::<N>(), gain.first_chunk_mut::<N>())
     else {
-        return chain.measured();
+        return Chain::START.measured(&[]);
     };
     let mut u = load_triangle::<T, N>(columns, 0);
-    let mut w = [T::ZERO; N];
+    let (w, mut v, mut s, mut largest) = (transposed(&u, f), [T::ZERO; N], T::ZERO, T::ZERO);
+    // 1/a before each column
+    let (mut a, mut inverse_a, mut inverse) = (T::ONE, T::ONE, [T::ONE; N]);
     for c in 0..N {
-        w[c] = f[c];
-        for i in 0..c {
-            w[c] = u[c][i].mul_add(f[i], w[c]);
-        }
+        let grown = d[c] * growth;
+        v[c] = grown * w[c];
+        let next = w[c].mul_add(v[c], a);
+        inverse[c] = inverse_a;
+        inverse_a = T::ONE / next;
+        d[c] = (grown * (a * inverse_a)).max(T::FLOOR);
+        largest = largest.max(d[c]);
+        a = next;
     }
-    let (slope, v) = chain.extend(d, growth, &w);
+    for c in (0..N).rev() {
+        s = w[c].mul_add(v[c], s);
+    }
     let mut k = [T::ZERO; N];
     for c in 0..N {
         for i in 0..c {
             let before = u[c][i];
-            u[c][i] = slope[c].mul_add(k[i], before);
+            // the reciprocal comes last
+            u[c][i] = (-(w[c] * k[i])).mul_add(inverse[c], before);
             k[i] = v[c].mul_add(before, k[i]);
         }
         k[c] = v[c];
     }
     store_triangle(columns, 0, &u);
     for (t, &error) in errors.iter().enumerate() {
-        let step = error * chain.inverse_a;
+        let step = error * inverse_a;
         if let Some(theta) = theta[t * N..].first_chunk_mut::<N>() {
             for i in 0..N {
                 theta[i] = step.mul_add(k[i], theta[i]);
@@ -171,5 +200,25 @@ fn small<T: Real, const N: usize>(task: Bierman<'_, T>) -> Measured<T> {
         }
     }
     *gain = k;
-    chain.measured()
+    Measured { leverage: s, variance: a, inverse_variance: inverse_a, largest }
+}
+
+/// Uᵀf, in two sums of which neither waits for the other.
+#[inline(always)]
+fn transposed<T: Real, const N: usize>(u: &[[T; N]; N], f: &[T; N]) -> [T; N] {
+    let mut w = *f;
+    for c in 0..N {
+        let mut odd = T::ZERO;
+        for i in 0..c {
+            if i % 2 == 0 {
+                w[c] = u[c][i].mul_add(f[i], w[c]);
+            } else {
+                odd = u[c][i].mul_add(f[i], odd);
+            }
+        }
+        if c > 1 {
+            w[c] += odd;
+        }
+    }
+    w
 }

@@ -90,26 +90,30 @@ impl<T: Real> Kernel<T> for Arrive<'_, T> {
 
     #[inline(always)]
     fn run<V: Vector<T>, const GROUP: usize>(self) -> (T, T) {
-        let n = self.phi.len();
-        let (phi, phi_rest) = T::chunks(self.phi);
-        let (theta, theta_rest) = T::chunks(&self.theta[..n]);
-        let (copy, copy_rest) = T::chunks_mut(&mut self.copy[..n]);
-        let (mut product, mut square) = (T::ZERO, T::ZERO);
-        if !phi.is_empty() {
-            let (mut products, mut squares) = (V::splat(T::ZERO), V::splat(T::ZERO));
-            for ((phi, theta), copy) in phi.iter().zip(theta).zip(copy) {
-                let phi = V::load(phi);
-                products = phi.mul_add(V::load(theta), products);
-                squares = phi.mul_add(phi, squares);
-                phi.store(copy);
-            }
-            (product, square) = (products.sum(), squares.sum());
-        }
-        for ((&phi, &theta), copy) in phi_rest.iter().zip(theta_rest).zip(copy_rest) {
-            product = phi.mul_add(theta, product);
-            square = phi.mul_add(phi, square);
-            *copy = phi;
-        }
-        (product, square)
+        self.copy.copy_from_slice(self.phi);
+        products::<T, V>(self.phi, self.theta)
     }
+}
+
+/// φ·θ and φ·φ, inside another kernel.
+#[inline(always)]
+pub fn products<T: Real, V: Vector<T>>(phi: &[T], theta: &[T]) -> (T, T) {
+    let n = phi.len();
+    let (phi, phi_rest) = T::chunks(phi);
+    let (theta, theta_rest) = T::chunks(&theta[..n]);
+    let (mut product, mut square) = (T::ZERO, T::ZERO);
+    if !phi.is_empty() {
+        let (mut products, mut squares) = (V::splat(T::ZERO), V::splat(T::ZERO));
+        for (phi, theta) in phi.iter().zip(theta) {
+            let phi = V::load(phi);
+            products = phi.mul_add(V::load(theta), products);
+            squares = phi.mul_add(phi, squares);
+        }
+        (product, square) = (products.sum(), squares.sum());
+    }
+    for (&phi, &theta) in phi_rest.iter().zip(theta_rest) {
+        product = phi.mul_add(theta, product);
+        square = phi.mul_add(phi, square);
+    }
+    (product, square)
 }

@@ -11,9 +11,11 @@ mod bierman;
 mod block;
 mod layout;
 mod long;
+mod step;
 mod triangular;
 
 pub use layout::{column, column_mut, length, set_identity, start, visit};
+pub(crate) use step::{Step, Stepped};
 
 use super::Measured;
 use crate::Real;
