@@ -15,7 +15,7 @@ mod secular;
 use crate::factor::kernel::dot;
 use crate::state::{State, Visitor};
 use crate::vector::Vector;
-use crate::{Factor, Kernel, Memory, Real};
+use crate::{Factor, Kernel, Memory, Real, Sample};
 use combine::Rows;
 
 /// R = P⁻¹ = Σ_i r_i v_i v_iᵀ with r ascending.
@@ -127,6 +127,13 @@ impl<M: Memory> Spectrum<M> {
             }
         } else if active > 1 && !self.update(active) {
             self.age = 0; // out of range: compute it from P at the next sample
+        }
+    }
+
+    /// The same for every row of a sample.
+    pub fn learn_rows(&mut self, sample: &Sample<'_, M>) {
+        for i in 0..sample.rows() {
+            self.learn(sample.row(i));
         }
     }
 

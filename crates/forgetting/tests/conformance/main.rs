@@ -3,7 +3,9 @@
 
 mod bits;
 mod fuzz;
+mod gates;
 mod headers;
+mod innovation;
 mod limits;
 mod parameters;
 mod record;
