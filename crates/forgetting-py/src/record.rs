@@ -62,7 +62,11 @@ pub fn run<T: Number>(
         None => RecordNoise::Unit,
         Some(gamma) => read_noise(gamma.as_array().shape(), &elements, samples, p)?,
     };
-    py.detach(|| update_all(estimator, &phi, &y, &noise, skip, &mut outputs))?;
+    outputs.prepare(estimator);
+    let outcome = py.detach(|| update_all(estimator, &phi, &y, &noise, skip, &mut outputs));
+    estimator.keep_innovations(false);
+    estimator.keep_prior(false);
+    outcome?;
     outputs.finish(py, sizes)
 }
 
@@ -136,10 +140,12 @@ fn samples<T: Number>(
     for (k, (phi, y)) in phi.chunks_exact(p * n).zip(y.chunks_exact(p * m)).enumerate() {
         if skip_missing && (missing(phi) || missing(y)) {
             outputs.note_missing(p * m);
+            outputs.note_prior(estimator, true);
         } else {
             let update =
                 estimator.update_weighted(phi, y, noise.at(k, p)).map_err(|error| (k, error))?;
             outputs.note(&update);
+            outputs.note_prior(estimator, false);
         }
         outputs.note_state(estimator);
     }
