@@ -2,7 +2,7 @@
 
 use crate::innovation::whiten_errors;
 use crate::update::Whitened;
-use crate::{Factor, Memory, Real, Sample, Work};
+use crate::{Factor, Memory, Sample, Work};
 
 /// What is kept of each sample, none of it unless asked for. Not state.
 #[derive(Clone, Debug)]
@@ -67,15 +67,18 @@ impl<M: Memory> Between<M> {
         }
     }
 
-    /// Takes note of P̄, which is `growth`·P.
+    /// A copy of P that is to become P̄, if that is asked for.
     #[inline]
-    pub fn look(&mut self, factor: &Factor<M>, growth: M::Real, work: &mut Work<M>) {
-        if let Some(prior) = &mut self.prior {
-            prior.copy_from(factor);
-            if growth != M::Real::ONE {
-                prior.scale_reserved(growth);
-            }
-        }
+    pub fn copy(&mut self, factor: &Factor<M>) -> Option<&mut Factor<M>> {
+        let prior = self.prior.as_mut()?;
+        prior.copy_from(factor);
+        Some(prior)
+    }
+
+    /// Takes note of P̄.
+    #[inline]
+    pub fn look(&mut self, factor: &Factor<M>, work: &mut Work<M>) {
+        self.copy(factor);
         if let Some(kept) = &mut self.innovations {
             whiten_errors(
                 factor,

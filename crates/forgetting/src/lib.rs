@@ -34,6 +34,7 @@ pub mod function;
 pub mod gates;
 mod innovation;
 mod intake;
+mod lane;
 mod measure;
 mod memory;
 pub mod monitor;
@@ -64,6 +65,7 @@ pub use evidence::{Evidence, Needs};
 pub use excitation::Excitation;
 pub use factor::Factor;
 pub use intake::Noise;
+pub use lane::Lane;
 #[cfg(feature = "alloc")]
 pub use memory::{Aligned, Dynamic};
 pub use memory::{Buffer, Fixed, Grid, Memory, Packed, Size};

@@ -3,7 +3,7 @@
 //!
 //! The algorithms see slices only, so that both give the same bits.
 
-use crate::factor::kernel::{length, set_identity};
+use crate::factor::kernel::{length, set_identity, SCRATCH};
 use crate::Real;
 use core::fmt::Debug;
 use core::marker::PhantomData;
@@ -36,6 +36,8 @@ pub trait Memory: Copy + Debug + Send + Sync + 'static {
     type Errors: Buffer<Self::Real>;
     /// m x n numbers, one target after the other
     type Parameters: Buffer<Self::Real>;
+    /// a few times n numbers, for the kernels to work with
+    type Scratch: Buffer<Self::Real>;
     /// numbers of a count that only the configuration knows, such as a window of past samples
     type List: Buffer<Self::Real>;
 
@@ -60,6 +62,8 @@ pub trait Memory: Copy + Debug + Send + Sync + 'static {
     fn errors(&self) -> Self::Errors;
     /// m x n zeros
     fn theta(&self) -> Self::Parameters;
+    /// zeros for the kernels to work with
+    fn scratch(&self) -> Self::Scratch;
     /// at least `length` zeros, at most [`Memory::longest_list`]
     fn list(&self, length: usize) -> Self::List;
     /// the most numbers that a list can hold
@@ -138,6 +142,7 @@ where
     type Noise = Grid<T, P, P>;
     type Errors = Grid<T, M, P>;
     type Parameters = Grid<T, N, M>;
+    type Scratch = Grid<T, N, SCRATCH>;
     type List = [T; L];
 
     #[inline(always)]
@@ -173,6 +178,9 @@ where
     fn theta(&self) -> Self::Parameters {
         Grid([[T::ZERO; N]; M])
     }
+    fn scratch(&self) -> Self::Scratch {
+        Grid([[T::ZERO; N]; SCRATCH])
+    }
     fn list(&self, _: usize) -> [T; L] {
         [T::ZERO; L]
     }
@@ -186,7 +194,7 @@ pub use dynamic::{Aligned, Dynamic};
 
 #[cfg(feature = "alloc")]
 mod dynamic {
-    use super::{length, set_identity, Memory, PhantomData};
+    use super::{length, set_identity, Memory, PhantomData, SCRATCH};
     use crate::{Error, Real};
     use alloc::{vec, vec::Vec};
 
@@ -277,6 +285,7 @@ mod dynamic {
         type Noise = Aligned<T>;
         type Errors = Aligned<T>;
         type Parameters = Aligned<T>;
+        type Scratch = Aligned<T>;
         type List = Aligned<T>;
 
         #[inline(always)]
@@ -313,6 +322,9 @@ mod dynamic {
         }
         fn theta(&self) -> Aligned<T> {
             Aligned::zeros(self.targets * self.parameters)
+        }
+        fn scratch(&self) -> Aligned<T> {
+            Aligned::zeros(SCRATCH * self.parameters)
         }
         fn list(&self, length: usize) -> Aligned<T> {
             Aligned::zeros(length.min(Self::LONGEST_LIST))

@@ -1,16 +1,26 @@
 //! The recursion step by step: admit, forget, measure and correct, watch.
 
-use super::{scaled, Estimator};
+use super::{forgotten, Estimator};
+use crate::between::Between;
 use crate::evidence::Known;
+use crate::factor::Form;
 use crate::gates::{Answer, Gate};
 use crate::intake::{whiten, Noise};
-use crate::measure::{leverage, measure};
+use crate::measure::{leverage, measure_rows};
 use crate::monitor::Seen;
 use crate::rates::Rate;
 use crate::rules::{Forgetting, Forgotten, Skip, Step};
 use crate::update::{Update, Whitened};
 use crate::weighting::Weighting;
 use crate::{Error, Memory, Real, Sample};
+
+/// What is known of a sample before it is used, and what the gate says of it.
+struct Admitted<T> {
+    known: Known<T>,
+    gate: Answer,
+    /// ‖φ̄‖²
+    squares: T,
+}
 
 impl<F, R, W, M> Estimator<F, R, W, M>
 where
@@ -28,7 +38,7 @@ where
         noise: Noise<'_, M::Real>,
     ) -> Result<Update<'_, M::Real>, Error> {
         let memory = self.prior.memory();
-        let (known, gate) = self.admit(phi, y, noise)?;
+        let Admitted { known, gate, squares } = self.admit(phi, y, noise)?;
         let intake = &mut self.intake;
         let seen = intake.seen.as_ref();
         let mut sample = Sample::new(memory, intake.regressors.as_mut(), intake.errors.as_mut());
@@ -39,28 +49,21 @@ where
             }
             Answer::Freeze | Answer::Hold => M::Real::ONE,
         };
-        self.between.take(&sample);
         let step = Step {
             factor: &mut self.factor,
             sample: &mut sample,
             forgetting_factor: lambda,
             work: &mut self.work,
         };
-        let (forgotten, growth) = forget(gate, &self.rule, &mut self.rule_state, step)?;
-        let Forgotten { rank, skipped, forgetting_factor } = forgotten;
-        self.between.look(&self.factor, growth, &mut self.work);
-        let leverage = if skipped.is_some() {
-            sample.restore();
-            leverage(&self.factor, &sample)
-        } else {
-            let (gain, theta) = (self.work.gain.as_mut(), self.theta.as_mut());
-            let remaining = &mut intake.remaining;
-            let leverage = measure(&mut self.factor, growth, &sample, gain, theta, remaining);
+        let rule = (&self.rule, &mut self.rule_state);
+        let buffers = (self.theta.as_mut(), &mut intake.remaining);
+        let (Forgotten { rank, skipped, forgetting_factor }, leverage) =
+            forget_and_measure((gate, squares), rule, step, buffers, &mut self.between)?;
+        if skipped.is_none() {
             let evidence = known.evidence(&sample, &self.factor, seen, self.samples);
             self.rate.learn(&mut self.rate_state, &evidence, lambda);
             self.samples += 1;
-            leverage
-        };
+        }
         if let Some(monitor) = &mut self.monitor {
             let squared_error = known.used_error();
             let seen = Seen { sample: &sample, squared_error, leverage, forgetting_factor: lambda };
@@ -78,23 +81,22 @@ where
                 Some(monitor) => monitor.windup(),
                 None => self.factor.exceeds(self.windup_limit),
             },
-            whitened: if memory.rows() == 1 {
-                Whitened::Row { errors: self.intake.errors.as_ref(), noise }
-            } else {
-                self.between.whitened()
+            whitened: match memory.rows() {
+                1 => Whitened::Row { errors: self.intake.errors.as_ref(), noise },
+                _ => self.between.whitened(),
             },
         })
     }
 
-    /// Leaves the sample in its buffers, whitened, and weighted unless it is held; returns what is
-    /// known of it and what the gate says. Nothing that lasts has changed.
+    /// Leaves the sample in its buffers, whitened, and weighted unless it is held. Nothing that
+    /// lasts has changed.
     #[inline]
     fn admit(
         &mut self,
         phi: &[M::Real],
         y: &[M::Real],
         noise: Noise<'_, M::Real>,
-    ) -> Result<(Known<M::Real>, Answer), Error> {
+    ) -> Result<Admitted<M::Real>, Error> {
         let memory = self.prior.memory();
         let intake = &mut self.intake;
         let squares = intake.take(memory, self.theta.as_ref(), phi, y)?;
@@ -111,8 +113,60 @@ where
             let seen = intake.seen.as_mut();
             known.weigh(&self.weighting, &mut sample, seen, &self.factor, self.samples)?;
         }
-        Ok((known, gate))
+        let squares = if self.weighting.is_equal() { squares } else { sample.squared_regressors() };
+        Ok(Admitted { known, gate, squares })
     }
+}
+
+/// Forgets as gate and rule say, measures and corrects θ; returns what was forgotten and
+/// tr φ̄P̄φ̄ᵀ. Leaves in `between` what is asked for.
+#[inline]
+fn forget_and_measure<F: Forgetting<M>, M: Memory>(
+    (gate, squares): (Answer, M::Real),
+    (rule, state): (&F, &mut F::State),
+    step: Step<'_, '_, M>,
+    (theta, remaining): (&mut [M::Real], &mut M::Errors),
+    between: &mut Between<M>,
+) -> Result<(Forgotten, M::Real), Error> {
+    let Step { factor, sample, forgetting_factor, work } = step;
+    between.take(sample);
+    let form = match (gate, sample.rows()) {
+        (Answer::Update, 1) => rule.form(forgetting_factor),
+        (Answer::Freeze, 1) => Some(Form::Scale { growth: M::Real::ONE }),
+        _ => None,
+    };
+    let left_out = match form {
+        _ if gate == Answer::Hold => Some(Skip::Gate),
+        Some(Form::Along { dead_zone, .. }) if dead_zone.holds(squares) => Some(Skip::DeadZone),
+        _ => None,
+    };
+    if let Some(reason) = left_out {
+        between.look(factor, work);
+        return Ok((Forgotten::skipped(reason), leverage(factor, sample)));
+    }
+    if gate == Answer::Freeze {
+        rule.follow(state, Step { factor, sample, forgetting_factor, work });
+    }
+    if let Some(form) = form {
+        if let (Answer::Update, Some(factor)) = (gate, between.copy(factor)) {
+            rule.forget(state, Step { factor, sample, forgetting_factor, work })?;
+        }
+        let (f, scratch) = (sample.row(0), work.scratch.as_mut());
+        let measured = factor.measure(form, (f, squares), scratch, (theta, sample.error(0)))?;
+        return Ok((forgotten(form, measured.forgot, factor.parameters()), measured.leverage));
+    }
+    let forgotten = match gate {
+        Answer::Update => rule.forget(state, Step { factor, sample, forgetting_factor, work })?,
+        Answer::Freeze | Answer::Hold => Forgotten::rank(0),
+    };
+    between.look(factor, work);
+    let leverage = if forgotten.skipped.is_some() {
+        sample.restore();
+        leverage(factor, sample)
+    } else {
+        measure_rows(factor, sample, work.gain.as_mut(), theta, remaining)
+    };
+    Ok((forgotten, leverage))
 }
 
 /// λ, if it is one.
@@ -125,29 +179,5 @@ fn usable<T: Real>(lambda: T) -> Result<T, Error> {
         Ok(lambda.max(T::EPSILON))
     } else {
         Err(Error::value("forgetting_factor", lambda.to_f64(), "(0, 1]"))
-    }
-}
-
-/// Forgets as the rule does, if the gate says so; returns what a single row must still scale P
-/// with while it is measured, else 1.
-#[inline]
-fn forget<F: Forgetting<M>, M: Memory>(
-    gate: Answer,
-    rule: &F,
-    state: &mut F::State,
-    step: Step<'_, '_, M>,
-) -> Result<(Forgotten, M::Real), Error> {
-    let one = M::Real::ONE;
-    match (gate, rule.scaling(step.forgetting_factor)) {
-        (Answer::Hold, _) => Ok((Forgotten::skipped(Skip::Gate), one)),
-        (Answer::Freeze, _) => {
-            rule.follow(state, step);
-            Ok((Forgotten::rank(0), one))
-        }
-        (Answer::Update, Some(growth)) if step.sample.rows() == 1 => {
-            step.factor.reserve(growth, M::Real::ZERO)?;
-            Ok((scaled(growth, step.factor.parameters()), growth))
-        }
-        (Answer::Update, _) => Ok((rule.forget(state, step)?, one)),
     }
 }

@@ -11,16 +11,10 @@ impl<M: Memory> Factor<M> {
     #[inline]
     pub fn scale(&mut self, growth: M::Real) -> Result<(), Error> {
         self.reserve(growth, M::Real::ZERO)?;
-        self.scale_reserved(growth);
-        Ok(())
-    }
-
-    /// P ← `growth`·P, for which there is room. O(n).
-    #[inline]
-    pub(crate) fn scale_reserved(&mut self, growth: M::Real) {
         for d in self.diagonal.as_mut() {
             *d *= growth;
         }
+        Ok(())
     }
 
     /// P ← P·`trace`/tr(P), for a trace below [`Real::CEILING`]. O(n²).

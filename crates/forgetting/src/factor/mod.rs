@@ -7,9 +7,11 @@
 mod blocks;
 mod covariance;
 pub(crate) mod dense;
+mod form;
 mod information;
 pub mod kernel;
 
+pub use form::{DeadZone, Form};
 pub use information::Measured;
 
 use crate::{Error, Memory, Real};

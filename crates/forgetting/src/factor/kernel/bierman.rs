@@ -1,9 +1,9 @@
-//! Measure and correct: Bierman's update with unit variance, P⁻¹ ← P⁻¹ + fᵀf, and θ ← θ + P₊fᵀe.
+//! Bierman's update with unit variance: P⁻¹ ← P⁻¹ + fᵀf, for more than eight parameters.
 //!
 //! ```text
 //! for each column j of U:   w = f_j + u·f,  v = D_j w,  a' = a + w v
 //!                           D_j ← D_j a / a',  u ← u − (w / a) k,  k ← k + v u (the u of before)
-//! then                      θ ← θ + k e / a'
+//! then                      P₊fᵀ = k / a'
 //! ```
 //!
 //! The columns are taken in blocks, so that the divisions of a block do not wait for each other
@@ -11,48 +11,33 @@
 //!
 //! G. J. Bierman, *Factorization Methods for Discrete Sequential Estimation*, 1977, chapter V.
 
-use super::block::{dots, load_triangle, rotate, store_triangle, with_width, PerColumn};
+use super::block::{dots, rotate, with_width, PerColumn};
 use super::layout::BLOCK;
-use super::long::add_scaled_by;
 use crate::factor::Measured;
 use crate::vector::Vector;
-use crate::{Kernel, Real};
-
-/// The update, with P ← `growth`·P before it; leaves P·fᵀ in `gain`, with the P before the
-/// measurement. `theta` holds n numbers for every number of `errors`.
-pub struct Bierman<'a, T> {
-    pub columns: &'a mut [T],
-    pub diagonal: &'a mut [T],
-    pub growth: T,
-    pub f: &'a [T],
-    pub gain: &'a mut [T],
-    pub theta: &'a mut [T],
-    pub errors: &'a [T],
-}
+use crate::Real;
 
 /// What passes from column to column: s = a − 1, and 1/a.
 #[derive(Clone, Copy)]
-struct Chain<T> {
+pub struct Chain<T> {
     s: T,
-    inverse_a: T,
+    pub inverse_a: T,
 }
 
 impl<T: Real> Chain<T> {
-    const START: Self = Self { s: T::ZERO, inverse_a: T::ONE };
+    pub const START: Self = Self { s: T::ZERO, inverse_a: T::ONE };
 
-    /// Goes through C columns; returns the slope and v of each.
-    ///
+    /// Goes through the columns of a block; returns the slope and v of each.
+    #[inline(always)]
+    pub fn pass(&mut self, d: &mut [T], w: &PerColumn<T>) -> (PerColumn<T>, PerColumn<T>) {
+        with_width!(d.len(), pass::<T>(self, d, w))
+    }
+
     /// Only the sum s passes from one column to the next; all else is done for all side by side.
     #[inline(always)]
-    fn extend<const C: usize>(
-        &mut self,
-        d: &mut [T; C],
-        growth: T,
-        w: &[T; C],
-    ) -> ([T; C], [T; C]) {
+    fn extend<const C: usize>(&mut self, d: &mut [T; C], w: &[T; C]) -> ([T; C], [T; C]) {
         let (mut v, mut a, mut product) = ([T::ZERO; C], [T::ZERO; C], [T::ZERO; C]);
         for c in 0..C {
-            d[c] *= growth;
             v[c] = d[c] * w[c];
             product[c] = w[c] * v[c];
         }
@@ -73,17 +58,33 @@ impl<T: Real> Chain<T> {
         (slope, v)
     }
 
+    /// At the end.
     #[inline(always)]
-    fn measured(self, d: &[T]) -> Measured<T> {
+    pub fn measured(self, d: &[T], forgot: bool) -> Measured<T> {
         let Self { s, inverse_a } = self;
         let largest = largest(d);
-        Measured { leverage: s, variance: T::ONE + s, inverse_variance: inverse_a, largest }
+        Measured { leverage: s, variance: T::ONE + s, inverse_variance: inverse_a, largest, forgot }
     }
+}
+
+#[inline(always)]
+fn pass<T: Real, const C: usize>(
+    chain: &mut Chain<T>,
+    d: &mut [T],
+    w: &PerColumn<T>,
+) -> (PerColumn<T>, PerColumn<T>) {
+    let (mut slope, mut v) = ([T::ZERO; BLOCK], [T::ZERO; BLOCK]);
+    if let (Some(d), Some(w)) = (d.first_chunk_mut::<C>(), w.first_chunk::<C>()) {
+        let found = chain.extend(d, w);
+        slope[..C].copy_from_slice(&found.0);
+        v[..C].copy_from_slice(&found.1);
+    }
+    (slope, v)
 }
 
 /// The largest of positive numbers, eight side by side.
 #[inline(always)]
-fn largest<T: Real>(numbers: &[T]) -> T {
+pub fn largest<T: Real>(numbers: &[T]) -> T {
     let (eights, rest) = numbers.as_chunks::<BLOCK>();
     let mut most = [T::ZERO; BLOCK];
     for eight in eights {
@@ -94,32 +95,27 @@ fn largest<T: Real>(numbers: &[T]) -> T {
     most.iter().chain(rest).fold(T::ZERO, |most, &x| most.max(x))
 }
 
-impl<T: Real> Kernel<T> for Bierman<'_, T> {
-    type Output = Measured<T>;
-
-    #[inline(always)]
-    fn size(&self) -> usize {
-        self.diagonal.len()
-    }
-
-    #[inline(always)]
-    fn run<V: Vector<T>, const GROUP: usize>(self) -> Measured<T> {
-        let n = self.diagonal.len();
-        if n <= BLOCK {
-            with_width!(n, small::<T>(self))
-        } else {
-            blocks::<T, V, GROUP>(self)
-        }
+/// D ← `growth`·D of a block.
+#[inline(always)]
+pub fn grow<T: Real>(d: &mut [T], growth: T) {
+    match d.first_chunk_mut::<BLOCK>() {
+        Some(d) => d.iter_mut().for_each(|d| *d *= growth),
+        None => d.iter_mut().for_each(|d| *d *= growth),
     }
 }
 
-/// All of it for more than eight parameters.
+/// P ← `growth`·P and P⁻¹ ← P⁻¹ + fᵀf; leaves P·fᵀ, with the P between the two, in `k`.
 #[inline(always)]
-pub fn blocks<T: Real, V: Vector<T>, const GROUP: usize>(task: Bierman<'_, T>) -> Measured<T> {
-    let Bierman { columns, diagonal, growth, f, gain, theta, errors } = task;
+pub fn scale_and_measure<T: Real, V: Vector<T>, const GROUP: usize>(
+    columns: &mut [T],
+    diagonal: &mut [T],
+    growth: T,
+    f: &[T],
+    k: &mut [T],
+) -> Chain<T> {
     let n = diagonal.len();
     let mut chain = Chain::START;
-    let mut ahead = dots::<T, V, GROUP>(columns, 0, BLOCK, f);
+    let mut ahead = dots::<T, V, GROUP>(columns, 0, BLOCK.min(n), f);
     for j in (0..n).step_by(BLOCK) {
         let (w, width, next) = (ahead, BLOCK.min(n - j), j + BLOCK);
         if next < n {
@@ -127,98 +123,9 @@ pub fn blocks<T: Real, V: Vector<T>, const GROUP: usize>(task: Bierman<'_, T>) -
             ahead = dots::<T, V, GROUP>(columns, next, BLOCK.min(n - next), f);
         }
         let d = &mut diagonal[j..j + width];
-        let (slope, v) = with_width!(width, extend::<T>(&mut chain, d, growth, &w));
-        rotate::<T, V, GROUP>(columns, j, width, gain, (&slope, &v));
+        grow(d, growth);
+        let (slope, v) = chain.pass(d, &w);
+        rotate::<T, V, GROUP>(columns, j, width, k, (&slope, &v));
     }
-    for (t, &error) in errors.iter().enumerate() {
-        let theta = &mut theta[t * n..(t + 1) * n];
-        add_scaled_by::<T, V>(theta, error * chain.inverse_a, gain);
-    }
-    chain.measured(diagonal)
-}
-
-/// [`Chain::extend`] for the last of the columns, or eight: the slope and v of each.
-#[inline(always)]
-fn extend<T: Real, const C: usize>(
-    chain: &mut Chain<T>,
-    d: &mut [T],
-    growth: T,
-    w: &PerColumn<T>,
-) -> (PerColumn<T>, PerColumn<T>) {
-    let (mut slope, mut v) = ([T::ZERO; BLOCK], [T::ZERO; BLOCK]);
-    if let (Some(d), Some(w)) = (d.first_chunk_mut::<C>(), w.first_chunk::<C>()) {
-        let found = chain.extend(d, growth, w);
-        slope[..C].copy_from_slice(&found.0);
-        v[..C].copy_from_slice(&found.1);
-    }
-    (slope, v)
-}
-
-/// All of it for N parameters, at most eight, in registers.
-#[inline(always)]
-pub fn small<T: Real, const N: usize>(task: Bierman<'_, T>) -> Measured<T> {
-    let Bierman { columns, diagonal, growth, f, gain, theta, errors } = task;
-    let (Some(d), Some(f), Some(gain)) =
-        (diagonal.first_chunk_mut::<N>(), f.first_chunk::<N>(), gain.first_chunk_mut::<N>())
-    else {
-        return Chain::START.measured(&[]);
-    };
-    let mut u = load_triangle::<T, N>(columns, 0);
-    let (w, mut v, mut s, mut largest) = (transposed(&u, f), [T::ZERO; N], T::ZERO, T::ZERO);
-    // 1/a before each column
-    let (mut a, mut inverse_a, mut inverse) = (T::ONE, T::ONE, [T::ONE; N]);
-    for c in 0..N {
-        let grown = d[c] * growth;
-        v[c] = grown * w[c];
-        let next = w[c].mul_add(v[c], a);
-        inverse[c] = inverse_a;
-        inverse_a = T::ONE / next;
-        d[c] = (grown * (a * inverse_a)).max(T::FLOOR);
-        largest = largest.max(d[c]);
-        a = next;
-    }
-    for c in (0..N).rev() {
-        s = w[c].mul_add(v[c], s);
-    }
-    let mut k = [T::ZERO; N];
-    for c in 0..N {
-        for i in 0..c {
-            let before = u[c][i];
-            // the reciprocal comes last
-            u[c][i] = (-(w[c] * k[i])).mul_add(inverse[c], before);
-            k[i] = v[c].mul_add(before, k[i]);
-        }
-        k[c] = v[c];
-    }
-    store_triangle(columns, 0, &u);
-    for (t, &error) in errors.iter().enumerate() {
-        let step = error * inverse_a;
-        if let Some(theta) = theta[t * N..].first_chunk_mut::<N>() {
-            for i in 0..N {
-                theta[i] = step.mul_add(k[i], theta[i]);
-            }
-        }
-    }
-    *gain = k;
-    Measured { leverage: s, variance: a, inverse_variance: inverse_a, largest }
-}
-
-/// Uᵀf, in two sums of which neither waits for the other.
-#[inline(always)]
-fn transposed<T: Real, const N: usize>(u: &[[T; N]; N], f: &[T; N]) -> [T; N] {
-    let mut w = *f;
-    for c in 0..N {
-        let mut odd = T::ZERO;
-        for i in 0..c {
-            if i % 2 == 0 {
-                w[c] = u[c][i].mul_add(f[i], w[c]);
-            } else {
-                odd = u[c][i].mul_add(f[i], odd);
-            }
-        }
-        if c > 1 {
-            w[c] += odd;
-        }
-    }
-    w
+    chain
 }

@@ -7,18 +7,27 @@
 //! how many columns at a time it runs. The bits of the result depend on neither.
 
 mod agee_turner;
+mod along;
 mod bierman;
 mod block;
 mod layout;
 mod long;
-mod step;
+mod measure;
+mod small;
+mod steps;
+mod told;
 mod triangular;
 
 pub use layout::{column, column_mut, length, set_identity, start, visit};
-pub(crate) use step::{Step, Stepped};
+pub(crate) use measure::{Measure, Place};
+pub(crate) use steps::Steps;
+pub use told::Told;
 
-use super::Measured;
+use super::{Form, Measured};
 use crate::Real;
+
+/// How many numbers for each parameter the kernels need to work with.
+pub(crate) const SCRATCH: usize = along::Scratch::<f64>::EACH;
 
 /// Σ aᵢ bᵢ over the shorter of the two, in 8 (f64) or 16 (f32) partial sums.
 #[inline(always)]
@@ -54,20 +63,13 @@ pub fn bierman<T: Real>(
     f: &[T],
     gain: &mut [T],
 ) -> Measured<T> {
-    let (growth, theta, errors) = (T::ONE, &mut [][..], &[][..]);
-    T::compute(bierman::Bierman { columns, diagonal, growth, f, gain, theta, errors })
-}
-
-/// The same after P ← `growth`·P, and with the correction of the n numbers of `theta` for each
-/// of `errors`: θ ← θ + P₊fᵀe.
-#[inline(always)]
-pub(crate) fn measure<T: Real>(
-    (columns, diagonal, growth): (&mut [T], &mut [T], T),
-    f: &[T],
-    gain: &mut [T],
-    (theta, errors): (&mut [T], &[T]),
-) -> Measured<T> {
-    T::compute(bierman::Bierman { columns, diagonal, growth, f, gain, theta, errors })
+    let place = Place { columns, diagonal, scratch: gain, bound: &mut { T::ZERO } };
+    let (theta, errors) = (&mut [][..], &[][..]);
+    let form = Form::Scale { growth: T::ONE };
+    match T::compute(Measure { place, form, f, squares: T::ONE, theta, errors }) {
+        Some(measured) => measured,
+        None => unreachable!("there is room for what does not grow"),
+    }
 }
 
 /// Agee and Turner's update: P ← P + c·x·xᵀ with c ≥ 0. Uses up `x`. O(n²).

@@ -2,6 +2,7 @@
 
 use super::block::{add_columns, dots, load_triangle, with_width, PerColumn};
 use super::layout::BLOCK;
+use super::small::Small;
 use crate::vector::Vector;
 use crate::{Kernel, Real};
 
@@ -22,16 +23,36 @@ impl<T: Real> Kernel<T> for Leverage<'_, T> {
 
     #[inline(always)]
     fn run<V: Vector<T>, const GROUP: usize>(self) -> T {
-        let Self { columns, diagonal, f } = self;
-        let mut sum = T::ZERO;
-        for j in (0..diagonal.len()).step_by(BLOCK) {
-            let d = &diagonal[j..diagonal.len().min(j + BLOCK)];
-            let w = dots::<T, V, GROUP>(columns, j, d.len(), f);
-            for (&d, &w) in d.iter().zip(&w) {
-                sum = (d * w).mul_add(w, sum);
-            }
+        leverage_of::<T, V, GROUP>(self.columns, self.diagonal, self.f)
+    }
+}
+
+/// f·P·fᵀ, inside another kernel.
+#[inline(always)]
+pub fn leverage_of<T: Real, V: Vector<T>, const GROUP: usize>(
+    columns: &[T],
+    diagonal: &[T],
+    f: &[T],
+) -> T {
+    if f.len() <= BLOCK {
+        return with_width!(f.len(), few::<T>(columns, diagonal, f));
+    }
+    let mut sum = T::ZERO;
+    for j in (0..diagonal.len()).step_by(BLOCK) {
+        let d = &diagonal[j..diagonal.len().min(j + BLOCK)];
+        let w = dots::<T, V, GROUP>(columns, j, d.len(), f);
+        for (&d, &w) in d.iter().zip(&w) {
+            sum = (d * w).mul_add(w, sum);
         }
-        sum
+    }
+    sum
+}
+
+#[inline(always)]
+fn few<T: Real, const N: usize>(columns: &[T], diagonal: &[T], f: &[T]) -> T {
+    match (diagonal.first_chunk::<N>(), f.first_chunk::<N>()) {
+        (Some(d), Some(f)) => Small::load(columns, d).leverage(f),
+        _ => T::ZERO,
     }
 }
 
@@ -87,7 +108,11 @@ impl<T: Real> Kernel<T> for Solve<'_, T> {
 
 /// The triangle of a block: `x` from j on solved; returns it with the opposite sign.
 #[inline(always)]
-fn solve_triangle<T: Real, const C: usize>(columns: &[T], j: usize, x: &mut [T]) -> PerColumn<T> {
+pub fn solve_triangle<T: Real, const C: usize>(
+    columns: &[T],
+    j: usize,
+    x: &mut [T],
+) -> PerColumn<T> {
     let mut factors = [T::ZERO; BLOCK];
     let Some(x) = x[j..].first_chunk_mut::<C>() else { return factors };
     let u = load_triangle::<T, C>(columns, j);

@@ -8,12 +8,14 @@ use crate::Fused;
 use core::arch::x86_64::*;
 use forgetting::vector::{Vector, HALF};
 
+mod lanes;
+
 /// Two registers of 256 bits.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub struct Pair<R>(R, R);
 
 /// A register of 512 bits.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub struct Wide<R>(R);
 
 impl Vectors for Fused<f64> {
@@ -81,10 +83,6 @@ unsafe fn masks32(count: usize) -> __m256i {
 
 impl Vector<Fused<f64>> for Wide<__m512d> {
     #[inline(always)]
-    fn splat(x: Fused<f64>) -> Self {
-        Self(unsafe { _mm512_set1_pd(x.0) })
-    }
-    #[inline(always)]
     fn load(chunk: &[Fused<f64>; 8]) -> Self {
         Self(unsafe { _mm512_loadu_pd(at!(chunk, f64, 0)) })
     }
@@ -109,10 +107,6 @@ impl Vector<Fused<f64>> for Wide<__m512d> {
         self.store(half);
     }
     #[inline(always)]
-    fn mul_add(self, factor: Self, term: Self) -> Self {
-        Self(unsafe { _mm512_fmadd_pd(self.0, factor.0, term.0) })
-    }
-    #[inline(always)]
     fn sum(self) -> Fused<f64> {
         Pair(unsafe { _mm512_castpd512_pd256(self.0) }, unsafe {
             _mm512_extractf64x4_pd::<1>(self.0)
@@ -122,11 +116,6 @@ impl Vector<Fused<f64>> for Wide<__m512d> {
 }
 
 impl Vector<Fused<f64>> for Pair<__m256d> {
-    #[inline(always)]
-    fn splat(x: Fused<f64>) -> Self {
-        let x = unsafe { _mm256_set1_pd(x.0) };
-        Self(x, x)
-    }
     #[inline(always)]
     fn load(chunk: &[Fused<f64>; 8]) -> Self {
         unsafe { Self(_mm256_loadu_pd(at!(chunk, f64, 0)), _mm256_loadu_pd(at!(chunk, f64, 4))) }
@@ -165,15 +154,6 @@ impl Vector<Fused<f64>> for Pair<__m256d> {
         self.store(half);
     }
     #[inline(always)]
-    fn mul_add(self, factor: Self, term: Self) -> Self {
-        unsafe {
-            Self(
-                _mm256_fmadd_pd(self.0, factor.0, term.0),
-                _mm256_fmadd_pd(self.1, factor.1, term.1),
-            )
-        }
-    }
-    #[inline(always)]
     fn sum(self) -> Fused<f64> {
         unsafe {
             let four = _mm256_add_pd(self.0, self.1);
@@ -186,10 +166,6 @@ impl Vector<Fused<f64>> for Pair<__m256d> {
 }
 
 impl Vector<Fused<f32>> for Wide<__m512> {
-    #[inline(always)]
-    fn splat(x: Fused<f32>) -> Self {
-        Self(unsafe { _mm512_set1_ps(x.0) })
-    }
     #[inline(always)]
     fn load(chunk: &[Fused<f32>; 16]) -> Self {
         Self(unsafe { _mm512_loadu_ps(at!(chunk, f32, 0)) })
@@ -216,10 +192,6 @@ impl Vector<Fused<f32>> for Wide<__m512> {
         unsafe { _mm256_storeu_ps(at_mut!(half, f32, 0), _mm512_castps512_ps256(self.0)) }
     }
     #[inline(always)]
-    fn mul_add(self, factor: Self, term: Self) -> Self {
-        Self(unsafe { _mm512_fmadd_ps(self.0, factor.0, term.0) })
-    }
-    #[inline(always)]
     fn sum(self) -> Fused<f32> {
         Pair(unsafe { _mm512_castps512_ps256(self.0) }, unsafe {
             _mm512_extractf32x8_ps::<1>(self.0)
@@ -229,11 +201,6 @@ impl Vector<Fused<f32>> for Wide<__m512> {
 }
 
 impl Vector<Fused<f32>> for Pair<__m256> {
-    #[inline(always)]
-    fn splat(x: Fused<f32>) -> Self {
-        let x = unsafe { _mm256_set1_ps(x.0) };
-        Self(x, x)
-    }
     #[inline(always)]
     fn load(chunk: &[Fused<f32>; 16]) -> Self {
         unsafe { Self(_mm256_loadu_ps(at!(chunk, f32, 0)), _mm256_loadu_ps(at!(chunk, f32, 8))) }
@@ -263,15 +230,6 @@ impl Vector<Fused<f32>> for Pair<__m256> {
     #[inline(always)]
     fn store_half(self, half: &mut [Fused<f32>; HALF]) {
         unsafe { _mm256_storeu_ps(at_mut!(half, f32, 0), self.0) }
-    }
-    #[inline(always)]
-    fn mul_add(self, factor: Self, term: Self) -> Self {
-        unsafe {
-            Self(
-                _mm256_fmadd_ps(self.0, factor.0, term.0),
-                _mm256_fmadd_ps(self.1, factor.1, term.1),
-            )
-        }
     }
     #[inline(always)]
     fn sum(self) -> Fused<f32> {
