@@ -14,7 +14,7 @@ use crate::intake::{Intake, Noise};
 use crate::monitor::{Health, Monitor};
 use crate::rates::Rate;
 use crate::rules::{Forgetting, Forgotten, Skip};
-use crate::state::{State, Visitor};
+use crate::state::{State, Visitor, MOST_SAMPLES};
 use crate::update::{Update, Whitened};
 use crate::weighting::Weighting;
 use crate::{Error, Factor, Memory, Prior, Real, Work};
@@ -321,9 +321,24 @@ where
         &self.prior
     }
 
-    /// Whether θ is finite and P positive definite, as after every sample.
+    /// Whether θ is finite, P positive definite, and what the rule, the rate and the watch
+    /// remember is what they can: as after every sample.
     pub fn is_sound(&self) -> bool {
-        self.theta.as_ref().iter().all(|x| x.is_finite()) && self.factor.is_sound()
+        self.theta.as_ref().iter().all(|x| x.is_finite())
+            && self.factor.is_sound()
+            && self.rule_state.is_sound()
+            && self.rate_state.is_sound()
+            && self.samples <= MOST_SAMPLES
+            && self.monitor.as_ref().is_none_or(State::is_sound)
+    }
+
+    /// [`Estimator::is_sound`] for a state that was read, of which the bound of P's trace may be
+    /// none.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn check_read(&mut self) -> bool {
+        let sound = self.is_sound();
+        self.factor.check_bound();
+        sound
     }
 
     /// Shows every number of the state to `visitor`.

@@ -64,7 +64,7 @@ impl<T: Real> AnyEstimator<T> {
         let mut estimator = read::header::<T>(&mut reader, body[MARK.len()])?;
         estimator.visit(&mut reader);
         reader.finish()?;
-        if estimator.is_sound() {
+        if estimator.check_read() {
             Ok(estimator)
         } else {
             Err(Error::State { reason: "its numbers are not those of an estimator" })

@@ -100,6 +100,10 @@ impl<M: Memory, S: State<M::Real>> State<M::Real> for Resetting<M, S> {
         self.rule.visit(visitor);
         self.watch.visit(visitor);
     }
+
+    fn is_sound(&self) -> bool {
+        self.rule.is_sound() && self.watch.is_sound()
+    }
 }
 
 impl<M: Memory, F: Forgetting<M>> CovarianceResetting<M, F> {

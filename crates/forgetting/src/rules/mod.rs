@@ -198,6 +198,12 @@ macro_rules! choice_of_rules {
                     $(Self::$Variant(state) => state.visit(visitor),)*
                 }
             }
+
+            fn is_sound(&self) -> bool {
+                match self {
+                    $(Self::$Variant(state) => State::<M::Real>::is_sound(state),)*
+                }
+            }
         }
 
         impl<M: Memory> Forgetting<M> for $Rule<M> {

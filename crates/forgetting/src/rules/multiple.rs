@@ -30,7 +30,7 @@
 use super::{About, Claim, Forgetting, Forgotten, Step};
 use crate::factor::kernel::{self, add_scaled, bierman, dot, length, set_identity};
 use crate::parameter::{Kind, Parameter, Range, Value, Values};
-use crate::state::{State, Visitor};
+use crate::state::{is_finite, State, Visitor};
 use crate::{Error, Factor, Memory, Real, Sample};
 
 const FACTORS: Parameter = Parameter::elements(
@@ -273,6 +273,11 @@ impl<M: Memory> State<M::Real> for Blocks<M> {
         visitor.reals(self.columns.as_mut());
         visitor.reals(self.diagonal.as_mut());
         visitor.whole(&mut self.started);
+    }
+
+    fn is_sound(&self) -> bool {
+        let in_range = |d: &M::Real| *d >= M::Real::FLOOR && *d <= M::Real::CEILING;
+        is_finite(self) && (self.started == 0 || self.diagonal.as_ref().iter().all(in_range))
     }
 }
 

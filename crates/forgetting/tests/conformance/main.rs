@@ -11,3 +11,4 @@ mod parameters;
 mod record;
 mod silence;
 mod subjects;
+mod tampering;
