@@ -28,6 +28,11 @@ impl Vectors for Fused<f32> {
     type Wide = Wide<__m512>;
 }
 
+/// One number, in every lane of a register of 128 bits: the compiler would pair single numbers
+/// with their neighbours, which costs more steps than it saves where each waits for the one before.
+#[derive(Clone, Copy, Debug)]
+pub struct Same<R>(R);
+
 /// The address of the numbers of an array.
 macro_rules! at {
     ($array:expr, $float:ty, $offset:expr) => {
@@ -82,6 +87,8 @@ unsafe fn masks32(count: usize) -> __m256i {
 // loads and stores need no alignment.
 
 impl Vector<Fused<f64>> for Wide<__m512d> {
+    type One = Same<__m128d>;
+
     #[inline(always)]
     fn load(chunk: &[Fused<f64>; 8]) -> Self {
         Self(unsafe { _mm512_loadu_pd(at!(chunk, f64, 0)) })
@@ -116,6 +123,8 @@ impl Vector<Fused<f64>> for Wide<__m512d> {
 }
 
 impl Vector<Fused<f64>> for Pair<__m256d> {
+    type One = Same<__m128d>;
+
     #[inline(always)]
     fn load(chunk: &[Fused<f64>; 8]) -> Self {
         unsafe { Self(_mm256_loadu_pd(at!(chunk, f64, 0)), _mm256_loadu_pd(at!(chunk, f64, 4))) }
@@ -166,6 +175,8 @@ impl Vector<Fused<f64>> for Pair<__m256d> {
 }
 
 impl Vector<Fused<f32>> for Wide<__m512> {
+    type One = Same<__m128>;
+
     #[inline(always)]
     fn load(chunk: &[Fused<f32>; 16]) -> Self {
         Self(unsafe { _mm512_loadu_ps(at!(chunk, f32, 0)) })
@@ -201,6 +212,8 @@ impl Vector<Fused<f32>> for Wide<__m512> {
 }
 
 impl Vector<Fused<f32>> for Pair<__m256> {
+    type One = Same<__m128>;
+
     #[inline(always)]
     fn load(chunk: &[Fused<f32>; 16]) -> Self {
         unsafe { Self(_mm256_loadu_ps(at!(chunk, f32, 0)), _mm256_loadu_ps(at!(chunk, f32, 8))) }

@@ -61,8 +61,13 @@ impl<T: Real> Chain<T> {
     /// At the end.
     #[inline(always)]
     pub fn measured(self, d: &[T], forgot: bool) -> Measured<T> {
+        self.with_largest(largest(d), forgot)
+    }
+
+    /// The same with the largest element of D known.
+    #[inline(always)]
+    pub fn with_largest(self, largest: T, forgot: bool) -> Measured<T> {
         let Self { s, inverse_a } = self;
-        let largest = largest(d);
         Measured { leverage: s, variance: T::ONE + s, inverse_variance: inverse_a, largest, forgot }
     }
 }

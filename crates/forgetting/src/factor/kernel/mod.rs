@@ -8,6 +8,7 @@
 
 mod agee_turner;
 mod along;
+mod batch;
 mod bierman;
 mod block;
 mod layout;

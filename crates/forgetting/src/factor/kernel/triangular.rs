@@ -51,7 +51,7 @@ pub fn leverage_of<T: Real, V: Vector<T>, const GROUP: usize>(
 #[inline(always)]
 fn few<T: Real, const N: usize>(columns: &[T], diagonal: &[T], f: &[T]) -> T {
     match (diagonal.first_chunk::<N>(), f.first_chunk::<N>()) {
-        (Some(d), Some(f)) => Small::load(columns, d).leverage(f),
+        (Some(d), Some(f)) => Small::<T, N>::load(columns, d).leverage(f),
         _ => T::ZERO,
     }
 }

@@ -12,12 +12,14 @@ mod add;
 mod dots;
 mod eliminate;
 mod rotate;
+mod rotate_and_dot;
 mod widen;
 
 pub use add::add_columns;
 pub use dots::dots;
 pub use eliminate::eliminate;
 pub use rotate::rotate;
+pub use rotate_and_dot::rotate_and_dot;
 pub use widen::{solve_and_dot, widen_and_rotate, Slopes};
 
 use super::layout::{start, BLOCK};
