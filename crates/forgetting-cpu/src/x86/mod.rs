@@ -122,6 +122,24 @@ impl Vector<Fused<f64>> for Wide<__m512d> {
     }
 }
 
+/// The sums of four vectors: what `sum` does to each, side by side.
+///
+/// # Safety
+/// The machine has AVX.
+#[inline(always)]
+unsafe fn sums_of_four(vectors: &[Pair<__m256d>; 4]) -> [Fused<f64>; 4] {
+    let mut sums = [Fused(0.0); 4];
+    // SAFETY: the instructions by the caller's promise; `Fused` has the layout of its number
+    unsafe {
+        let [a, b, c, d] = vectors.map(|Pair(low, high)| _mm256_add_pd(low, high));
+        let (ab, cd) = (_mm256_hadd_pd(a, b), _mm256_hadd_pd(c, d));
+        let low = _mm256_permute2f128_pd::<0x20>(ab, cd);
+        let high = _mm256_permute2f128_pd::<0x31>(ab, cd);
+        _mm256_storeu_pd(at_mut!(sums, f64, 0), _mm256_add_pd(low, high));
+    }
+    sums
+}
+
 impl Vector<Fused<f64>> for Pair<__m256d> {
     type One = Same<__m128d>;
 
@@ -171,6 +189,19 @@ impl Vector<Fused<f64>> for Pair<__m256d> {
             let pairs = _mm_hadd_pd(low, high);
             Fused(_mm_cvtsd_f64(_mm_add_sd(pairs, _mm_unpackhi_pd(pairs, pairs))))
         }
+    }
+    #[inline(always)]
+    fn sums<const C: usize>(vectors: [Self; C]) -> [Fused<f64>; C] {
+        let mut sums = [Fused(0.0); C];
+        let (fours, rest) = vectors.as_chunks::<4>();
+        let (sums_of_fours, sums_of_rest) = sums.as_chunks_mut::<4>();
+        for (sums, four) in sums_of_fours.iter_mut().zip(fours) {
+            *sums = unsafe { sums_of_four(four) };
+        }
+        for (sum, vector) in sums_of_rest.iter_mut().zip(rest) {
+            *sum = vector.sum();
+        }
+        sums
     }
 }
 

@@ -7,17 +7,17 @@
 //! found at the end, one after the other, each with the θ that the one before left.
 //!
 //! ```text
-//! order:  … (0, j)  (2, j−1)  (1, j)  (3, j−1)  (0, j+1) …          (sample, block)
+//! order:  … (0, j) and (2, j−1)   (1, j) and (3, j−1)   (0, j+1) and (2, j) …      (sample, block)
 //! ```
 //!
-//! Neighbours in this order do not wait for each other: while the columns of one are swept, the
-//! divisions of the next are under way.
+//! Two that are taken together do not wait for each other: their divisions are under way at the
+//! same time.
 
-use super::bierman::{grow, largest, Chain};
-use super::block::{dots, rotate, rotate_and_dot, PerColumn};
+use super::bierman::{grown, largest, Chain};
 use super::layout::{column, BLOCK};
 use super::long::products;
 use super::measure::Place;
+use super::tile::{block, block_mut, dots, put_eight, rotate, Long, LongMut, PerColumn};
 use crate::factor::Measured;
 use crate::vector::Vector;
 use crate::Real;
@@ -28,14 +28,12 @@ pub const BATCH: usize = 4;
 pub const BATCH_FROM: usize = 40;
 
 /// A batch on its way.
-struct Sweep<'a, T> {
+struct Sweep<'a, T: Real> {
     columns: &'a mut [T],
     diagonal: &'a mut [T],
-    /// BATCH times n
-    gains: &'a mut [T],
-    f: &'a [T],
     growth: T,
-    n: usize,
+    f: [Long<'a, T>; BATCH],
+    gains: [LongMut<'a, T>; BATCH],
     /// Uᵀf in the block that each sample comes to next
     w: [PerColumn<T>; BATCH],
     chains: [Chain<T>; BATCH],
@@ -60,71 +58,62 @@ pub fn measure_batch<T: Real, V: Vector<T>, const GROUP: usize>(
     f: &[T],
 ) -> [Measured<T>; BATCH] {
     let n = place.diagonal.len();
+    let mut gains = place.scratch[..BATCH * n].chunks_exact_mut(n);
     let mut sweep = Sweep {
         columns: &mut *place.columns,
         diagonal: &mut *place.diagonal,
-        gains: &mut place.scratch[..BATCH * n],
-        f,
         growth,
-        n,
+        f: core::array::from_fn(|l| Long::new(&f[l * n..(l + 1) * n])),
+        gains: core::array::from_fn(|_| LongMut::zeros(gains.next().unwrap_or_default())),
         w: [[T::ZERO; BLOCK]; BATCH],
         chains: [Chain::START; BATCH],
         largest: [T::ZERO; BATCH],
     };
-    let end = n.next_multiple_of(BLOCK);
-    let mut last = None;
-    for start in (0..=end).step_by(BLOCK) {
-        for sample in 0..BATCH / 2 {
-            for (sample, block) in
-                [(sample, start), (sample + BATCH / 2, start.wrapping_sub(BLOCK))]
-            {
-                if block < end {
-                    let turn = sweep.turn::<V, GROUP>(sample, block);
-                    if let Some(before) = last.replace(turn) {
-                        sweep.sweep::<V, GROUP>(&before);
-                    }
+    let blocks = n.div_ceil(BLOCK);
+    for b in 0..=blocks {
+        for early in 0..BATCH / 2 {
+            let pair = [(early, b), (early + BATCH / 2, b.wrapping_sub(1))];
+            let mut turns = [None; 2];
+            for (turn, (sample, b)) in turns.iter_mut().zip(pair) {
+                if b < blocks {
+                    *turn = Some(sweep.turn::<V, GROUP>(sample, b));
                 }
+            }
+            for turn in turns.iter().flatten() {
+                sweep.sweep::<V, GROUP>(turn);
             }
         }
     }
-    if let Some(turn) = last {
-        sweep.sweep::<V, GROUP>(&turn);
-    }
-    let Sweep { chains, largest, .. } = sweep;
-    let mut measured = [Measured::default(); BATCH];
-    for (l, measured) in measured.iter_mut().enumerate() {
-        *measured = chains[l].with_largest(largest[l], growth > T::ONE);
-    }
-    measured
+    let Sweep { chains, largest, gains, .. } = sweep;
+    gains.into_iter().for_each(LongMut::finish);
+    let measured = |l: usize| chains[l].with_largest(largest[l], growth > T::ONE);
+    core::array::from_fn(measured)
 }
 
 impl<T: Real> Sweep<'_, T> {
     /// The scalars of a sample in a block.
     #[inline(always)]
-    fn turn<V: Vector<T>, const GROUP: usize>(&mut self, sample: usize, block: usize) -> Turn<T> {
-        let width = BLOCK.min(self.n - block);
+    fn turn<V: Vector<T>, const GROUP: usize>(&mut self, sample: usize, b: usize) -> Turn<T> {
         if sample == 0 {
-            self.w[0] = dots::<T, V, GROUP>(self.columns, block, width, &self.f[..self.n]);
+            self.w[0] = dots::<T, V, GROUP>(block(self.columns, b), &self.f[0]);
         }
-        let d = &mut self.diagonal[block..block + width];
-        grow(d, self.growth);
-        let (slope, v) = self.chains[sample].pass(d, &self.w[sample]);
-        self.largest[sample] = self.largest[sample].max(largest(d));
-        Turn { sample, block, slope, v }
+        let mut d = grown(self.diagonal, b, self.growth);
+        let (slope, v) = self.chains[sample].pass(&mut d, &self.w[sample]);
+        put_eight(self.diagonal, b, &d);
+        self.largest[sample] = self.largest[sample].max(largest(&d));
+        Turn { sample, block: b, slope, v }
     }
 
     /// The columns of a block after it.
     #[inline(always)]
     fn sweep<V: Vector<T>, const GROUP: usize>(&mut self, turn: &Turn<T>) {
-        let Turn { sample, block, ref slope, ref v } = *turn;
-        let (n, width) = (self.n, BLOCK.min(self.n - block));
-        let k = &mut self.gains[sample * n..(sample + 1) * n];
+        let Turn { sample, block: b, ref slope, ref v } = *turn;
+        let (block, k) = (block_mut(self.columns, b), &mut self.gains[sample]);
         if sample + 1 < BATCH {
-            let f = &self.f[(sample + 1) * n..(sample + 2) * n];
-            self.w[sample + 1] =
-                rotate_and_dot::<T, V, GROUP>(self.columns, block, width, (k, f), (slope, v));
+            rotate::<T, V, GROUP>(block, k, (slope, v));
+            self.w[sample + 1] = dots::<T, V, GROUP>(block, &self.f[sample + 1]);
         } else {
-            rotate::<T, V, GROUP>(self.columns, block, width, k, (slope, v));
+            rotate::<T, V, GROUP>(block, k, (slope, v));
         }
     }
 }
@@ -178,8 +167,9 @@ fn are_small<T: Real>(trace: T, squares: &[T; BATCH], y: &[T], mut length: T) ->
 fn trace<T: Real, V: Vector<T>>(place: &Place<'_, T>) -> T {
     let mut sum = T::ZERO;
     for (j, &d) in place.diagonal.iter().enumerate() {
-        let u = column(place.columns, j);
-        sum += d * (T::ONE + products::<T, V>(u, u).1);
+        let squares =
+            column(place.columns, j).fold(T::ONE, |sum, u| sum + products::<T, V>(u, u).1);
+        sum += d * squares;
     }
     sum
 }

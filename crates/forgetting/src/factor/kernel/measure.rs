@@ -3,8 +3,7 @@
 
 use super::along::{self, Scratch};
 use super::bierman::{self, Chain};
-use super::block::with_width;
-use super::layout::BLOCK;
+use super::layout::FEW;
 use super::long::add_scaled_by;
 use super::small::{Gain, Small};
 use crate::factor::{Form, Measured};
@@ -44,8 +43,8 @@ impl<T: Real> Kernel<T> for Measure<'_, T> {
     fn run<V: Vector<T>, const GROUP: usize>(mut self) -> Option<Measured<T>> {
         let n = self.f.len();
         let Self { ref mut place, form, f, squares, .. } = self;
-        let measured = if n <= BLOCK {
-            with_width!(n, few::<T, T>(place, form, f, squares))?
+        let measured = if n <= FEW {
+            with_few!(n, few::<T, T>(place, form, f, squares))?
         } else {
             many::<T, V, GROUP>(place, form, f, squares)?
         };
@@ -65,7 +64,7 @@ impl<T: Real> Place<'_, T> {
     }
 }
 
-/// For at most eight parameters.
+/// For at most ten parameters.
 #[inline(always)]
 fn few<T: Real, A: One<T>, const N: usize>(
     place: &mut Place<'_, T>,
@@ -127,7 +126,7 @@ fn adds<T: Real>(c: T) -> bool {
     c > T::ZERO && c.is_finite()
 }
 
-/// For more than eight.
+/// For more than ten.
 #[inline(always)]
 pub fn many<T: Real, V: Vector<T>, const GROUP: usize>(
     place: &mut Place<'_, T>,
@@ -151,8 +150,7 @@ pub fn many<T: Real, V: Vector<T>, const GROUP: usize>(
                 place.make_room(T::ONE, c * squares)?;
                 let mut scratch = Scratch::of(place.scratch, n);
                 let (columns, diagonal) = (&mut *place.columns, &mut *place.diagonal);
-                let chain =
-                    along::add_and_measure::<T, V, GROUP>(columns, diagonal, t, &mut scratch);
+                let chain = along::add_and_measure::<T, V>(columns, diagonal, t, &mut scratch);
                 (chain, true)
             } else {
                 (scale::<T, V, GROUP>(place, T::ONE, f), false)

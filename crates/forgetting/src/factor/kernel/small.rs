@@ -1,4 +1,4 @@
-//! One sample of at most eight parameters, in registers: of one stream, or of one in each lane.
+//! One sample of at most ten parameters, in registers: of one stream, or of one in each lane.
 //!
 //! Measuring is Bierman's update (see [`super::bierman`]), adding covariance along the regressor
 //! that of Agee and Turner (see [`super::agee_turner`]), both with one pass over U:
@@ -12,7 +12,7 @@
 
 #![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
 
-use super::layout::{start, BLOCK};
+use super::layout::place;
 use crate::{Lane, One, Real};
 
 /// U above its diagonal, by columns, and D.
@@ -198,9 +198,8 @@ impl<A: Copy, const N: usize> Small<A, N> {
     {
         let mut u = [[A::splat(T::ZERO); N]; N];
         for c in 0..N {
-            let column = &columns[start(c)..start(c) + BLOCK];
             for i in 0..c {
-                u[c][i] = A::splat(column[i]);
+                u[c][i] = A::splat(columns[place::<T>(i, c)]);
             }
         }
         Self { u, d: diagonal.map(A::splat) }
@@ -213,9 +212,8 @@ impl<A: Copy, const N: usize> Small<A, N> {
         A: One<T>,
     {
         for c in 0..N {
-            let column = &mut columns[start(c)..start(c) + BLOCK];
             for i in 0..c {
-                column[i] = self.u[c][i].get();
+                columns[place::<T>(i, c)] = self.u[c][i].get();
             }
         }
         *diagonal = self.d.map(One::get);

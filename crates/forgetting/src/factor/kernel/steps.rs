@@ -4,8 +4,7 @@
 #![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
 
 use super::batch::{admits, measure_batch, BATCH, BATCH_FROM};
-use super::block::with_width;
-use super::layout::BLOCK;
+use super::layout::FEW;
 use super::long::{add_scaled_by, few_products, products};
 use super::measure::{many as measure_many, take, Place};
 use super::small::Small;
@@ -40,14 +39,14 @@ impl<T: Real> Kernel<T> for Steps<'_, T> {
     #[inline(always)]
     fn run<V: Vector<T>, const GROUP: usize>(mut self) -> usize {
         let n = self.theta.len();
-        if n <= BLOCK {
+        if n <= FEW {
             match n {
                 // less arithmetic than waiting for it
                 1 => few::<T, V::One, 1>(&mut self),
                 2 => few::<T, V::One, 2>(&mut self),
                 3 => few::<T, V::One, 3>(&mut self),
                 4 => few::<T, V::One, 4>(&mut self),
-                _ => with_width!(n, few::<T, T>(&mut self)),
+                _ => with_few!(n, few::<T, T>(&mut self)),
             }
             .unwrap_or(0)
         } else {
@@ -69,7 +68,7 @@ impl<T: Real> Form<T> {
     }
 }
 
-/// For at most eight parameters: U, D and θ stay in registers.
+/// For at most ten parameters: U, D and θ stay in registers.
 #[inline(always)]
 fn few<T: Real, A: One<T>, const N: usize>(task: &mut Steps<'_, T>) -> Option<usize> {
     let Steps { place, form, phi, y, theta, told, thetas } = task;
@@ -119,7 +118,7 @@ fn left_out<T: Real, A: One<T>, const N: usize>(
     Told { error, leverage, largest: largest(&d), forgot: false, used: false }
 }
 
-/// For more than eight.
+/// For more than ten.
 #[inline(always)]
 fn many<T: Real, V: Vector<T>, const GROUP: usize>(task: &mut Steps<'_, T>) -> usize {
     let (n, most) = (task.theta.len(), task.told.len().min(task.y.len()));
