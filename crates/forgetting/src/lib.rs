@@ -65,7 +65,7 @@ pub use evidence::{Evidence, Needs};
 pub use excitation::Excitation;
 pub use factor::Factor;
 pub use intake::Noise;
-pub use lane::Lane;
+pub use lane::{Lane, One};
 #[cfg(feature = "alloc")]
 pub use memory::{Aligned, Dynamic};
 pub use memory::{Buffer, Fixed, Grid, Memory, Packed, Size};
