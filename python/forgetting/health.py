@@ -38,11 +38,14 @@ class Health:
         Their ratio: the condition number of P if `exact`, else a lower bound of it.
     exact : bool
     windup, informed : bool or None
-        Of the weakest direction.
+        Of the weakest direction: the one with the largest variance, in units of the smallest
+        variance that each parameter has had so far.
     direction : (n,) ndarray or None
-        The weakest direction, a unit vector: the one with the largest variance in P.
+        The weakest direction, a unit vector.
+    parts : (n,) ndarray or None
+        The same in those units: how far each parameter belongs to it.
     variance, growth : float or None
-        Its variance, and that over its variance when it was last informed.
+        Its variance in P, and how many times that is what it was when it was last informed.
     since_informed : int or None
         Samples since then, to within one block of max(10, 2n, half the memory) samples.
     since_excited : (n,) ndarray of int or None
@@ -65,6 +68,7 @@ class Health:
     windup: bool | None = None
     informed: bool | None = None
     direction: NDArray[np.floating[Any]] | None = None
+    parts: NDArray[np.floating[Any]] | None = None
     variance: float | None = None
     growth: float | None = None
     since_informed: int | None = None
@@ -86,13 +90,13 @@ class Health:
         >>> print(est.health().describe(["offset", "slope"]))
         windup: nothing has informed slope for 200 samples
         """
-        if self.direction is None or self.status in ("ok", "saturated"):
+        if self.parts is None or self.status in ("ok", "saturated"):
             return self.status
         silence = self.since_excited if self.since_excited is not None else np.zeros(0)
         if self.informed:  # so it is a parameter that is silent
             involved, samples = np.array([silence.argmax()]), int(silence.max())
         else:
-            size = np.abs(self.direction)
+            size = np.abs(self.parts)
             involved = np.flatnonzero(size > 0.3 * size.max())
             samples = max(self.since_informed or 0, int(silence[involved].min()))
         named = [names[i] if names is not None else f"parameter {i}" for i in involved]
@@ -114,6 +118,8 @@ def health_of(estimator: RLS, exact: bool = False) -> Health:
     if watched is None:
         return Health("saturated" if saturated else "ok", *eigenvalues, exact)
     weight, block = watched.pop("weight"), watched.pop("block")
+    parts = watched["direction"] / np.sqrt(watched.pop("least_variances"))
+    watched["parts"] = parts / np.linalg.norm(parts)
     # the correlation of independent innovations has the variance 1/weight
     white = bool(abs(watched["correlation"]) <= 2 / math.sqrt(weight)) if weight > 1 else None
     return Health(_status(watched, saturated, block), *eigenvalues, exact, white=white, **watched)

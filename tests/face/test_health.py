@@ -143,3 +143,31 @@ def test_a_trickle_does_not_end_the_alarm_at_once():
     share = 0.05  # of its own variance, in each block of ten samples
     trickle = np.sqrt(share / 10 / est.covariance[0, 0])
     assert est.run(np.full((9, 1), trickle), np.zeros(9), outputs=["windup"]).windup.all()
+
+
+def test_units_do_not_hide_a_direction_that_winds_up():
+    """The variance of b stays far below that of the others, for its regressor is large."""
+    random = np.random.default_rng(2)
+    units = np.array([1.0, 1e3, 1e-3])
+    est = fg.RLS(3, rule=fg.Exponential(0.98), initial_covariance=100 / units**2, monitor=True)
+    phi = random.normal(size=(2000, 3)) * units
+    phi[1000:, 1] = 0.0
+    run = est.run(phi, phi.sum(axis=1) + random.normal(size=2000), outputs=["windup", "variance"])
+    assert run.variance[1400].argmax() == 2
+    growth_of_ten = np.log(10) / -np.log(0.98)
+    assert growth_of_ten < run.windup.argmax() - 1000 < growth_of_ten + 150
+    health = est.health()
+    assert health.describe(["a", "b", "c"]).startswith("windup: nothing has informed b for")
+    assert np.abs(health.parts).round(3).tolist() == [0.0, 1.0, 0.0]
+
+
+def test_a_direction_that_is_always_weak_does_not_hide_another():
+    random = np.random.default_rng(6)
+    phi = random.normal(size=(4000, 4))
+    phi[:, 3] = phi[:, 2] + 0.01 * phi[:, 3]  # the difference is hard to tell, always
+    phi[2000:, 0] = 0.0
+    est = fg.RLS(4, rule=fg.Exponential(0.99), monitor=True)
+    run = est.run(phi, phi.sum(axis=1) + random.normal(size=4000), outputs=["windup", "variance"])
+    first = int(run.windup.argmax())
+    assert first > 2000 and run.variance[first, 0] < run.variance[first, 3]
+    assert est.health().describe(list("abcd")).startswith("windup: nothing has informed a for")

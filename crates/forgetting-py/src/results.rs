@@ -67,6 +67,8 @@ pub fn watched<'py, T: Number>(
     watched.set_item("windup", health.windup)?;
     watched.set_item("informed", health.informed)?;
     watched.set_item("direction", shaped(py, health.direction.to_vec(), &[n])?)?;
+    let least = health.least_variances.to_vec();
+    watched.set_item("least_variances", shaped(py, least, &[n])?)?;
     watched.set_item("variance", health.variance.to_f64())?;
     watched.set_item("growth", health.growth.to_f64())?;
     watched.set_item("since_informed", health.since_informed)?;

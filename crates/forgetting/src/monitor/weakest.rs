@@ -1,0 +1,206 @@
+//! The direction that is known least, in units of what each parameter was known by at its best.
+
+use super::{FACTOR, RECOVERY, SHARE};
+use crate::factor::kernel::{add_scaled, dot};
+use crate::state::{is_finite, State, Visitor};
+use crate::{Factor, Memory, Real};
+
+/// w, and what is told of it.
+#[derive(Clone, Debug)]
+pub(super) struct Weakest<M: Memory> {
+    bounded: bool,
+    /// s²
+    pub least: M::Vector,
+    /// S w, so that φ̃ w is φ̄ times it
+    axis: M::Vector,
+    /// the same with length 1
+    pub direction: M::Vector,
+    /// a buffer
+    before: M::Vector,
+    /// σ²
+    variance: M::Real,
+    /// the variance in P along the direction
+    pub spread: M::Real,
+    /// σ² when w was last informed
+    reference: M::Real,
+    /// Σ (φ̃ w)² in this block and in the one before
+    information: [M::Real; 2],
+    /// Σ (φ̃ w) φ̄ in this block
+    told: M::Vector,
+}
+
+impl<M: Memory> Weakest<M> {
+    /// Of this P; `bounded` if the rule bounds it without excitation.
+    pub fn new(factor: &Factor<M>, bounded: bool) -> Self {
+        let (memory, zero) = (factor.memory(), M::Real::ZERO);
+        let mut weakest = Self {
+            bounded,
+            least: memory.vector(),
+            axis: memory.vector(),
+            direction: memory.vector(),
+            before: memory.vector(),
+            variance: zero,
+            spread: zero,
+            reference: zero,
+            information: [zero; 2],
+            told: memory.vector(),
+        };
+        factor.variances(weakest.least.as_mut());
+        for (x, &least) in weakest.axis.as_mut().iter_mut().zip(weakest.least.as_ref()) {
+            *x = least.sqrt();
+        }
+        weakest.look(factor, 0);
+        weakest.reference = weakest.variance;
+        weakest
+    }
+
+    /// Whether it has wound up.
+    #[inline]
+    pub fn windup(&self) -> bool {
+        !self.bounded
+            && self.variance > M::Real::from_f64(FACTOR) * self.reference
+            && !self.is_informed()
+    }
+
+    /// Whether it is told enough now.
+    #[inline]
+    pub fn is_informed(&self) -> bool {
+        (self.information[0] + self.information[1]) * self.variance >= self.needed()
+    }
+
+    /// σ² over what it was when w was last informed.
+    pub fn growth(&self) -> M::Real {
+        self.variance / self.reference
+    }
+
+    /// The share that w must be told of to count as informed: the further it has wound up, the
+    /// more.
+    #[inline]
+    fn needed(&self) -> M::Real {
+        let (share, recovery) = (M::Real::from_f64(SHARE), M::Real::from_f64(RECOVERY));
+        if self.bounded {
+            return share;
+        }
+        let excess = self.variance / (M::Real::from_f64(FACTOR) * self.reference);
+        (share * excess).max(share).min(recovery)
+    }
+
+    /// Takes note of one row.
+    #[inline]
+    pub fn note(&mut self, row: &[M::Real]) {
+        let along = dot(row, self.axis.as_ref());
+        self.information[0] += along * along;
+        add_scaled(self.told.as_mut(), along, row);
+    }
+
+    /// The end of a block, after so many samples; returns whether w was informed in it.
+    pub fn turn(&mut self, factor: &Factor<M>, samples: u64) -> bool {
+        let (before, needed) = (self.variance, self.needed());
+        let along = self.information[0];
+        let same = self.look(factor, samples);
+        let (last, informed) = if same && along > M::Real::ZERO {
+            // Σ (φ̃ w)² of the new w is at least this (Cauchy and Schwarz): a trickle along the old
+            // one may be none along the new one, with its larger variance
+            let shared = dot(self.told.as_ref(), self.axis.as_ref());
+            let last = (shared * (shared / along)).min(M::Real::CEILING);
+            (last, last * self.variance >= self.needed())
+        } else {
+            let informed = along * before >= needed;
+            (if informed { along } else { M::Real::ZERO }, informed)
+        };
+        if informed {
+            // no direction had a larger variance before
+            self.reference = before;
+        }
+        self.reference = self.reference.min(self.variance);
+        self.information = [M::Real::ZERO, last];
+        self.told.as_mut().fill(M::Real::ZERO);
+        informed
+    }
+
+    /// Looks for w again; says whether it is still about the same. O(n²).
+    fn look(&mut self, factor: &Factor<M>, samples: u64) -> bool {
+        let (before, direction) = (self.before.as_mut(), self.direction.as_mut());
+        factor.variances(before);
+        for (least, &now) in self.least.as_mut().iter_mut().zip(before.iter()) {
+            *least = least.min(now).max(M::Real::FLOOR);
+        }
+        before.copy_from_slice(self.axis.as_ref());
+        let (axis, least) = (self.axis.as_mut(), self.least.as_ref());
+        turn_axis(factor, (axis, least), direction, samples);
+        for ((u, &x), &least) in direction.iter_mut().zip(axis.iter()).zip(least) {
+            *u = x / least;
+        }
+        let overlap = dot(direction, before);
+        let variance = factor.leverage(direction);
+        // written so that what is not a number is the largest
+        let fits = variance <= M::Real::CEILING;
+        self.variance = if fits { variance } else { M::Real::CEILING };
+        direction.copy_from_slice(axis);
+        normalize(direction);
+        self.spread = factor.leverage(direction);
+        overlap * overlap > M::Real::from_f64(0.8)
+    }
+}
+
+impl<M: Memory> State<M::Real> for Weakest<M> {
+    fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
+        for vector in [&mut self.least, &mut self.axis, &mut self.direction, &mut self.told] {
+            visitor.reals(vector.as_mut());
+        }
+        visitor.reals(&mut self.information);
+        for number in [&mut self.variance, &mut self.spread, &mut self.reference] {
+            visitor.reals(core::slice::from_mut(number));
+        }
+    }
+
+    fn is_sound(&self) -> bool {
+        let zero = M::Real::ZERO;
+        let parts = self.axis.as_ref().iter().zip(self.least.as_ref());
+        let length = parts.fold(zero, |sum, (&x, &least)| sum + x * (x / least));
+        is_finite(self)
+            && self.least.as_ref().iter().all(|&least| least >= M::Real::FLOOR)
+            && self.information.iter().all(|&x| x >= zero)
+            && self.variance > zero
+            && self.reference > zero
+            && self.spread >= zero
+            && length >= M::Real::from_f64(0.5)
+            && length <= M::Real::CEILING
+    }
+}
+
+/// S w ← S P̃ w / ‖P̃ w‖ = P S⁻¹w / ‖S⁻¹P S⁻¹w‖, in place of `axis`; uses `work`.
+fn turn_axis<M: Memory>(
+    factor: &Factor<M>,
+    (axis, least): (&mut [M::Real], &[M::Real]),
+    work: &mut [M::Real],
+    samples: u64,
+) {
+    // a little of every axis keeps the iteration from missing a direction for ever
+    let nudge = M::Real::EPSILON.sqrt();
+    for (i, (u, (&x, &least))) in work.iter_mut().zip(axis.iter().zip(least)).enumerate() {
+        let (s, up) = (least.sqrt(), (samples >> (i % 32)) & 1 == 0);
+        *u = (x / s + if up { nudge } else { -nudge }) / s;
+    }
+    factor.multiply(work);
+    for (y, &least) in work.iter_mut().zip(least) {
+        *y /= least.sqrt();
+    }
+    if normalize(work) {
+        for (x, (&w, &least)) in axis.iter_mut().zip(work.iter().zip(least)) {
+            *x = w * least.sqrt();
+        }
+    }
+}
+
+/// x ← x / ‖x‖, if that has a value; says whether it has.
+fn normalize<T: Real>(x: &mut [T]) -> bool {
+    let largest = x.iter().fold(T::ZERO, |largest, x| largest.max(x.abs()));
+    if !(largest > T::ZERO && largest.is_finite()) {
+        return false;
+    }
+    x.iter_mut().for_each(|x| *x /= largest);
+    let length = dot(x, x).sqrt();
+    x.iter_mut().for_each(|x| *x /= length);
+    true
+}
