@@ -1,20 +1,75 @@
-"""Speed of `forgetting` beside its peers: `python -m benchmarks [--quick]`. Prints Markdown."""
+"""Speed of `forgetting` beside its peers: `python -m benchmarks [--quick] [--only single,calls]`.
+
+Prints Markdown. All sides of a table get the same data, in one process, and take turns; every
+time is the least of many turns. Read ratios.
+"""
 
 from __future__ import annotations
 
-from . import environment, single  # isort: skip
+from . import environment  # isort: skip  # noqa: F401
 
 import argparse
+import time
+
+from . import (
+    calls,
+    fleet,
+    limits,
+    live,
+    machine,
+    memory,
+    peers,
+    resetting,
+    rules,
+    single,
+    variable_direction,
+)
+from .ledger import Ledger
+from .plan import SIZES, Plan
+
+PARTS = {
+    "machine": machine,
+    "limits": limits,
+    "single": single,
+    "peers": peers,
+    "rules": rules,
+    "resetting": resetting,
+    "variable_direction": variable_direction,
+    "calls": calls,
+    "live": live,
+    "memory": memory,
+    "fleet": fleet,
+}
+
+
+def title(part: object) -> str:
+    """The first line of a part's documentation."""
+    return str(part.__doc__).splitlines()[0].rstrip(".")
+
+
+def arguments() -> argparse.Namespace:
+    """What the command line says."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
+    parser.add_argument("--quick", action="store_true", help="fewer turns, sizes and peers")
+    parser.add_argument("--only", default=",".join(PARTS), help="some of: %(default)s")
+    parser.add_argument("--sizes", default=",".join(map(str, SIZES)), help="some of: %(default)s")
+    return parser.parse_args()
 
 
 def main() -> None:
-    """Print the tables."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
-    parser.add_argument("--quick", action="store_true", help="fewer repetitions")
-    quick = parser.parse_args().quick
-    print(f"Threads: {environment.THREADS}\n")
-    for text in single.report(1.0 if quick else 5.0):
-        print(text, flush=True)
+    """Print the report."""
+    asked = arguments()
+    plan = Plan(asked.quick, tuple(int(n) for n in asked.sizes.split(",")))
+    ledger, start = Ledger(), time.monotonic()
+    print("# Speed of forgetting\n")
+    for name in asked.only.split(","):
+        print(f"## {title(PARTS[name])}\n", flush=True)
+        for text in PARTS[name].report(plan, ledger):
+            print(text, flush=True)
+        print()
+    for text in ledger.report():
+        print(text)
+    print(f"\nMeasured in {time.monotonic() - start:.0f} s.")
 
 
 if __name__ == "__main__":

@@ -5,12 +5,15 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
+from itertools import count
 from typing import Any
 
-# a turn shorter than this is mostly the call itself
-SHORTEST_TURN = 150e-6
+import numpy as np
+
 # a rival this many times slower than the best of its group is out, after so many turns
 HOPELESS, TRIAL_TURNS = 1.3, 3
+# a side this many times slower than the fastest turns more seldom, to leave time to the others
+SLOW = 5
 
 
 @dataclass
@@ -21,7 +24,8 @@ class Side:
     work: Callable[[], Any]
     prepare: Callable[[], Any] = lambda: None
     group: str = ""  # rivals of which only the best counts
-    least: float = float("inf")  # seconds
+    each: int = 1  # samples or calls in one turn
+    least: float = float("inf")  # seconds of a turn
     turns: int = field(default=0)
 
     def turn(self) -> None:
@@ -32,18 +36,27 @@ class Side:
         self.least = min(self.least, time.perf_counter() - start)
         self.turns += 1
 
+    @property
+    def nanoseconds(self) -> float:
+        """A sample or call."""
+        return self.least / self.each * 1e9
 
-def race(sides: Iterable[Side], seconds: float, least_turns: int = 5) -> None:
+
+def race(sides: Iterable[Side], seconds: float, least_rounds: int = 5) -> None:
     """Let the sides take turns (A B C A B C ...) for `seconds`, so that drift hits all alike."""
     running = list(sides)
-    end = time.perf_counter() + seconds
-    turns = 0
-    while turns < least_turns or time.perf_counter() < end:
+    for _ in range(TRIAL_TURNS):
         for side in running:
             side.turn()
-        turns += 1
-        if turns == TRIAL_TURNS:
-            running = [side for side in running if not hopeless(side, running)]
+    running = [side for side in running if not hopeless(side, running)]
+    fastest = min(side.least for side in running)
+    end = time.perf_counter() + seconds
+    for turn in count():
+        for side in running:
+            if turn % max(1, round(side.least / (SLOW * fastest))) == 0:
+                side.turn()
+        if turn >= least_rounds and time.perf_counter() > end:
+            return
 
 
 def hopeless(side: Side, sides: list[Side]) -> bool:
@@ -53,6 +66,14 @@ def hopeless(side: Side, sides: list[Side]) -> bool:
 
 
 def best_of(sides: Iterable[Side], group: str) -> Side | None:
-    """The fastest of a group; None if nobody ran."""
-    ran = [side for side in sides if side.group == group and side.turns]
-    return min(ran, key=lambda side: side.least, default=None)
+    """The fastest of a group; None if nobody is in it."""
+    members = [side for side in sides if side.group == group]
+    return min(members, key=lambda side: side.least, default=None)
+
+
+def growth(times: dict[int, float]) -> float:
+    """The exponent of time over the sizes from 64 on."""
+    large = {n: time for n, time in times.items() if n >= 64}
+    if len(large) < 2:
+        return float("nan")
+    return float(np.polyfit(np.log(list(large)), np.log(list(large.values())), 1)[0])

@@ -1,5 +1,6 @@
 // dlib::rls, as its documentation shows it: train on one column vector after another.
 #include <dlib/algs.h>
+#include <dlib/revision.h>
 #include <dlib/test_for_odr_violations.h>
 #ifdef OWN_LOOPS // instead of the BLAS that the package was configured with
 #undef DLIB_USE_BLAS
@@ -47,8 +48,14 @@ template <bool prior_forgotten> Filter* make(long n, bool single, double lambda,
 
 } // namespace
 
+#define TEXT(word) #word
+#define DOTTED(a, b, c) TEXT(a) "." TEXT(b) "." TEXT(c)
+const char* const version = "dlib " DOTTED(DLIB_MAJOR_VERSION, DLIB_MINOR_VERSION, DLIB_PATCH_VERSION);
+
 const Variant variants[] = {
+    // the prior is forgotten too: exponential forgetting
     {"C forgotten", make<true>},
-    {"default, O(n³)", make<false>},
+    // the prior stays alive: O(n^3) a sample
+    {"default", make<false>},
     {nullptr, nullptr},
 };

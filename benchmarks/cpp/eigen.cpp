@@ -222,6 +222,11 @@ template <typename T, int N> using TwoPassesColumns = TwoPasses<T, N, Columns>;
 
 } // namespace
 
+#define TEXT(word) #word
+#define DOTTED(a, b, c) TEXT(a) "." TEXT(b) "." TEXT(c)
+const char* const version =
+    "Eigen " DOTTED(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION);
+
 const Variant variants[] = {
     {"fixed size, full", fixed<TwoPassesFull>},
     {"fixed size, full, unrolled", fixed<TwoPassesUnrolled>},

@@ -16,10 +16,13 @@ struct Variant {
     Filter* (*make)(long n, bool single, double lambda, double p0);
 };
 
-// defined by each peer, ended by a null name
+// defined by each peer; the table ends with a null name
 extern const Variant variants[];
+extern const char* const version;
 
 extern "C" {
+const char* peer_version() { return version; }
+
 const char* variant_name(long index) { return variants[index].name; }
 
 Filter* filter_make(long index, long n, bool single, double lambda, double p0) {
