@@ -92,7 +92,7 @@ def measured(count: int, dtype: str, threads: int) -> dict[str, Any]:
             fleet.update(phi, y)
 
     def bandwidth() -> None:
-        rates[0] = max(rates[0], limits.bandwidth(where, threads, trials=1))
+        rates[0] = max(rates[0], limits.bandwidth(where, threads))
 
     side = Side("fleet", update, each=count * calls)
     for _ in range(2):  # in turns with the limit

@@ -1,4 +1,4 @@
-"""What was measured on, and with which versions."""
+"""Machine and versions."""
 
 from __future__ import annotations
 

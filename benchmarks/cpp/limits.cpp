@@ -87,20 +87,16 @@ double multiply_add_rate(bool single, int trials) {
 }
 
 // Bytes a second, read and written counted each, of x *= a over `bytes` a thread.
-double bandwidth(long bytes, long passes, int threads, int trials) {
-    double best = 0;
-    for (int i = 0; i < trials; ++i) {
-        Team team{long(bytes / sizeof(double)), passes, threads};
-        team.begun.resize(threads);
-        team.ended.resize(threads);
-        std::vector<std::thread> others;
-        for (int me = 1; me < threads; ++me) others.emplace_back(&Team::work, &team, me);
-        team.work(0);
-        for (auto& other : others) other.join();
-        const double start = *std::min_element(team.begun.begin(), team.begun.end());
-        const double end = *std::max_element(team.ended.begin(), team.ended.end());
-        best = std::max(best, 2.0 * bytes * passes * threads / (end - start));
-    }
-    return best;
+double bandwidth(long bytes, long passes, int threads) {
+    Team team{long(bytes / sizeof(double)), passes, threads};
+    team.begun.resize(threads);
+    team.ended.resize(threads);
+    std::vector<std::thread> others;
+    for (int me = 1; me < threads; ++me) others.emplace_back(&Team::work, &team, me);
+    team.work(0);
+    for (auto& other : others) other.join();
+    const double start = *std::min_element(team.begun.begin(), team.begun.end());
+    const double end = *std::max_element(team.ended.begin(), team.ended.end());
+    return 2.0 * bytes * passes * threads / (end - start);
 }
 }
