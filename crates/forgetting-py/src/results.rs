@@ -47,8 +47,8 @@ pub fn factor<'py, T: Number>(
     let mut dense = vec![T::ZERO; n * n];
     for j in 0..n {
         dense[j * n + j] = T::ONE;
-        for (i, &u) in factor.column(j).iter().enumerate() {
-            dense[i * n + j] = u;
+        for i in 0..j {
+            dense[i * n + j] = factor.unit(i, j);
         }
     }
     let diagonal = factor.diagonal_elements().to_vec();

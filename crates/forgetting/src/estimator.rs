@@ -6,10 +6,11 @@
 //! correct   θ₊ = θ + R₊⁻¹ φᵀ Γ⁻¹ (y − φ θ)     θ changes here and nowhere else
 //! ```
 
-use crate::evidence::{blame_squares, Known};
-use crate::factor::kernel::{dot, Stepped};
-use crate::intake::{blame, whiten, Intake, Noise};
-use crate::measure::{leverage, measure};
+use crate::evidence::Known;
+use crate::factor::kernel::{dot, Told};
+use crate::factor::Form;
+use crate::intake::{whiten, Intake, Noise};
+use crate::measure::{leverage, measure_rows};
 use crate::monitor::{Health, Monitor, Seen};
 use crate::rates::Rate;
 use crate::rules::{Forgetting, Forgotten, Skip, Step};
@@ -73,41 +74,27 @@ where
     rate_state: R::State,
     samples: u64,
     windup_limit: M::Real,
-    /// if every sample is one row for one target and P is only scaled, always by the same
+    /// what every sample does to P, if that is all that there is to do
     steady: Option<Steady<M::Real>>,
     monitor: Option<Monitor<M>>,
     intake: Intake<M>,
     work: Work<M>,
 }
 
-/// λ and the growth of P that it makes, the same for every sample.
+/// The same λ and the same form of forgetting for every sample, of one row and one target.
 #[derive(Clone, Copy, Debug)]
 struct Steady<T> {
     lambda: T,
-    growth: T,
+    form: Form<T>,
 }
 
-/// P ← `growth`·P, of n parameters.
+/// What forgetting in this form did to P, of n parameters.
 #[inline]
-fn scaled<T: Real>(growth: T, n: usize) -> Forgotten {
-    if growth == T::ONE {
-        Forgotten::rank(0).with_factor(1.0)
-    } else {
-        Forgotten::rank(n)
-    }
-}
-
-/// Why a sample was not used: itself, or else `room`.
-#[cold]
-fn refusal<T: Real>(phi: &[T], y: &[T], stepped: &Stepped<T>, room: Result<(), Error>) -> Error {
-    let Stepped { error, squares, .. } = *stepped;
-    let largest = error.abs();
-    if !(largest <= T::CEILING) {
-        return blame(phi, y, largest);
-    }
-    match room {
-        Err(error) if squares <= T::CEILING => error,
-        _ => blame_squares(phi, squares),
+fn forgotten<T: Real>(form: Form<T>, forgot: bool, n: usize) -> Forgotten {
+    match form {
+        Form::Scale { growth } if growth == T::ONE => Forgotten::rank(0).with_factor(1.0),
+        Form::Scale { .. } => Forgotten::rank(n),
+        Form::Along { .. } => Forgotten::rank(usize::from(forgot)),
     }
 }
 
@@ -129,7 +116,7 @@ where
         let steady = rate
             .constant()
             .filter(|_| single)
-            .and_then(|lambda| rule.scaling(lambda).map(|growth| Steady { lambda, growth }));
+            .and_then(|lambda| rule.form(lambda).map(|form| Steady { lambda, form }));
         Self {
             steady,
             theta: prior.theta().clone(),
@@ -210,40 +197,62 @@ where
         y: &[M::Real],
         noise: Noise<'_, M::Real>,
     ) -> Result<Update<'_, M::Real>, Error> {
-        match (self.steady, noise) {
-            (Some(steady), Noise::Unit) if self.monitor.is_none() => self.step(steady, phi, y),
-            _ => self.update_in_steps(phi, y, noise),
+        let n = self.prior.memory().parameters();
+        let mut told = [Told::default()];
+        if phi.len() == n
+            && y.len() == 1
+            && matches!(noise, Noise::Unit)
+            && self.advance(phi, y, &mut told, &mut []) == 1
+        {
+            self.intake.innovations.as_mut()[0] = told[0].error;
+            return Ok(self.tell(self.intake.innovations.as_ref(), &told[0]));
         }
+        self.update_in_steps(phi, y, noise)
     }
 
-    /// The whole recursion in one pass, where all that the sample decides is the error.
+    /// Takes samples of n numbers `phi` and one number `y` each, one after the other and all in
+    /// one go; returns how many it took, as many as `told` has room for at most.
+    ///
+    /// It takes none where it has more to do than to forget, measure and correct (a watch, a
+    /// variable rate, …), and stops before a sample that it cannot use: [`Estimator::update`]
+    /// takes the next one or says what is wrong with it. The bits are those of as many calls of
+    /// that. `thetas` has room for n numbers a sample, θ after it, or is empty.
     #[inline]
-    fn step(
+    pub fn advance(
         &mut self,
-        steady: Steady<M::Real>,
         phi: &[M::Real],
         y: &[M::Real],
-    ) -> Result<Update<'_, M::Real>, Error> {
+        told: &mut [Told<M::Real>],
+        thetas: &mut [M::Real],
+    ) -> usize {
+        let Some(steady) = self.steady.filter(|_| self.monitor.is_none()) else { return 0 };
+        let (scratch, theta) = (self.work.scratch.as_mut(), self.theta.as_mut());
+        let taken = self.factor.advance(steady.form, (phi, y), scratch, theta, (told, thetas));
+        self.samples += told[..taken].iter().filter(|told| told.used).count() as u64;
+        taken
+    }
+
+    /// What a sample told that [`Estimator::advance`] took.
+    #[inline]
+    pub fn update_of<'a>(&self, told: &'a Told<M::Real>) -> Update<'a, M::Real> {
+        self.tell(core::slice::from_ref(&told.error), told)
+    }
+
+    #[inline]
+    fn tell<'a>(&self, error: &'a [M::Real], told: &Told<M::Real>) -> Update<'a, M::Real> {
         let n = self.prior.memory().parameters();
-        Error::check_length("phi", phi.len(), n)?;
-        Error::check_length("y", y.len(), 1)?;
-        let (gain, theta) = (self.work.gain.as_mut(), self.theta.as_mut());
-        let (stepped, room) = self.factor.step(steady.growth, (phi, y[0]), gain, theta);
-        let error = self.intake.innovations.as_mut();
-        error[0] = stepped.error;
-        let Some(measured) = stepped.measured else {
-            return Err(refusal(phi, y, &stepped, room));
+        let (lambda, forgotten) = match self.steady {
+            Some(Steady { lambda, form }) => (lambda, forgotten(form, told.forgot, n)),
+            None => (M::Real::ONE, Forgotten::rank(0)),
         };
-        self.samples += 1;
-        let Forgotten { rank, forgetting_factor, .. } = scaled(steady.growth, n);
-        Ok(Update {
+        Update {
             error,
-            leverage: measured.leverage,
-            forgetting_factor: forgetting_factor.map_or(steady.lambda, M::Real::from_f64),
-            rank,
-            skipped: None,
-            windup: measured.largest > self.windup_limit,
-        })
+            leverage: told.leverage,
+            forgetting_factor: forgotten.forgetting_factor.map_or(lambda, M::Real::from_f64),
+            rank: forgotten.rank,
+            skipped: (!told.used).then_some(Skip::DeadZone),
+            windup: told.largest > self.windup_limit,
+        }
     }
 
     /// The recursion step by step.
@@ -275,33 +284,44 @@ where
         // less than the rounding unit forgets every digit all the same, and would swamp those of
         // the directions that are kept
         let lambda = lambda.max(M::Real::EPSILON);
-        let (Forgotten { rank, skipped, forgetting_factor }, growth) =
-            match self.rule.scaling(lambda) {
-                Some(growth) if sample.rows() == 1 => {
-                    self.factor.reserve(growth, M::Real::ZERO)?;
-                    (scaled(growth, memory.parameters()), growth)
-                }
-                _ => {
-                    let step = Step {
-                        factor: &mut self.factor,
-                        sample: &mut sample,
-                        forgetting_factor: lambda,
-                        work: &mut self.work,
-                    };
-                    (self.rule.forget(&mut self.rule_state, step)?, M::Real::ONE)
-                }
-            };
-        let leverage = if skipped.is_some() {
-            leverage(&self.factor, &sample)
-        } else {
-            let (gain, theta) = (self.work.gain.as_mut(), self.theta.as_mut());
-            let remaining = &mut intake.remaining;
-            let leverage = measure(&mut self.factor, growth, &sample, gain, theta, remaining);
+        let form = if sample.rows() == 1 { self.rule.form(lambda) } else { None };
+        let squares =
+            if unit && self.weighting.is_equal() { squares } else { sample.squared_regressors() };
+        let theta = self.theta.as_mut();
+        let (Forgotten { rank, skipped, forgetting_factor }, leverage) = match form {
+            Some(Form::Along { dead_zone, .. }) if dead_zone.holds(squares) => {
+                (Forgotten::skipped(Skip::DeadZone), leverage(&self.factor, &sample))
+            }
+            Some(form) => {
+                let (f, errors) = (sample.row(0), sample.error(0));
+                let scratch = self.work.scratch.as_mut();
+                let measured = self.factor.measure(form, (f, squares), scratch, (theta, errors))?;
+                (forgotten(form, measured.forgot, memory.parameters()), measured.leverage)
+            }
+            None => {
+                let step = Step {
+                    factor: &mut self.factor,
+                    sample: &mut sample,
+                    forgetting_factor: lambda,
+                    work: &mut self.work,
+                };
+                let forgotten = self.rule.forget(&mut self.rule_state, step)?;
+                let gain = self.work.gain.as_mut();
+                let leverage = match forgotten.skipped {
+                    Some(_) => leverage(&self.factor, &sample),
+                    None => {
+                        let remaining = &mut intake.remaining;
+                        measure_rows(&mut self.factor, &sample, gain, theta, remaining)
+                    }
+                };
+                (forgotten, leverage)
+            }
+        };
+        if skipped.is_none() {
             let evidence = known.evidence(&sample, &self.factor, seen, self.samples);
             self.rate.learn(&mut self.rate_state, &evidence, lambda);
             self.samples += 1;
-            leverage
-        };
+        }
         if let Some(monitor) = &mut self.monitor {
             let squared_error = known.used_error();
             let seen = Seen { sample: &sample, squared_error, leverage, forgetting_factor: lambda };

@@ -30,6 +30,7 @@ pub mod factor;
 #[cfg(feature = "alloc")]
 pub mod function;
 mod intake;
+mod lane;
 mod measure;
 mod memory;
 pub mod monitor;
@@ -59,6 +60,7 @@ pub use evidence::{Evidence, Needs};
 pub use excitation::Excitation;
 pub use factor::Factor;
 pub use intake::Noise;
+pub use lane::{Lane, One};
 #[cfg(feature = "alloc")]
 pub use memory::{Aligned, Dynamic};
 pub use memory::{Buffer, Fixed, Grid, Memory, Packed, Size};

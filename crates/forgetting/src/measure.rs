@@ -9,27 +9,11 @@ pub fn leverage<M: Memory>(factor: &Factor<M>, sample: &Sample<'_, M>) -> M::Rea
     (0..sample.rows()).fold(M::Real::ZERO, |sum, i| sum + factor.leverage(sample.row(i)))
 }
 
-/// Measures and corrects, row by row; returns the leverage with the P of before. A single row
-/// takes P ← `growth`·P along; with several it must be 1.
+/// Measures and corrects, row by row, and returns the leverage with the P of before.
 ///
 /// Whitened rows are independent: after each, what the later ones still tell is their
 /// innovation less what the correction explains.
-#[inline]
-pub fn measure<M: Memory>(
-    factor: &mut Factor<M>,
-    growth: M::Real,
-    sample: &Sample<'_, M>,
-    gain: &mut [M::Real],
-    theta: &mut [M::Real],
-    remaining: &mut M::Errors,
-) -> M::Real {
-    if sample.rows() == 1 {
-        return factor.measure(growth, sample.row(0), gain, (theta, sample.error(0))).leverage;
-    }
-    measure_rows(factor, sample, gain, theta, remaining)
-}
-
-fn measure_rows<M: Memory>(
+pub fn measure_rows<M: Memory>(
     factor: &mut Factor<M>,
     sample: &Sample<'_, M>,
     gain: &mut [M::Real],

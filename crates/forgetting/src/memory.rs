@@ -3,7 +3,7 @@
 //!
 //! The algorithms see slices only, so that both give the same bits.
 
-use crate::factor::kernel::{length, set_identity};
+use crate::factor::kernel::{most, set_identity, SCRATCH};
 use crate::Real;
 use core::fmt::Debug;
 use core::marker::PhantomData;
@@ -24,7 +24,7 @@ pub trait Memory: Copy + Debug + Send + Sync + 'static {
     type Real: Real;
     /// n numbers
     type Vector: Buffer<Self::Real>;
-    /// the columns of U: [`length`](crate::factor::kernel::length) of n numbers
+    /// the columns of U: at least [`capacity`](crate::factor::kernel::capacity) of n numbers
     type Packed: Buffer<Self::Real>;
     /// n x n numbers
     type Square: Buffer<Self::Real>;
@@ -36,6 +36,8 @@ pub trait Memory: Copy + Debug + Send + Sync + 'static {
     type Errors: Buffer<Self::Real>;
     /// m x n numbers, one target after the other
     type Parameters: Buffer<Self::Real>;
+    /// a few times n numbers, for the kernels to work with
+    type Scratch: Buffer<Self::Real>;
     /// numbers of a count that only the configuration knows, such as a window of past samples
     type List: Buffer<Self::Real>;
 
@@ -60,6 +62,8 @@ pub trait Memory: Copy + Debug + Send + Sync + 'static {
     fn errors(&self) -> Self::Errors;
     /// m x n zeros
     fn theta(&self) -> Self::Parameters;
+    /// zeros for the kernels to work with
+    fn scratch(&self) -> Self::Scratch;
     /// at least `length` zeros, at most [`Memory::longest_list`]
     fn list(&self, length: usize) -> Self::List;
     /// the most numbers that a list can hold
@@ -86,7 +90,7 @@ impl<T, const A: usize, const B: usize> AsMut<[T]> for Grid<T, A, B> {
 
 /// A number of parameters for which the packed triangle has a type (1 to 32).
 pub trait Packed<T> {
-    /// [`length`] of n numbers
+    /// [`most`] of n numbers
     type Triangle: Buffer<T>;
     /// U = I
     fn triangle() -> Self::Triangle;
@@ -99,9 +103,9 @@ pub struct Size<const N: usize>;
 macro_rules! packed {
     ($($n:literal)*) => {$(
         impl<T: Real> Packed<T> for Size<$n> {
-            type Triangle = [T; length($n)];
+            type Triangle = [T; most($n)];
             fn triangle() -> Self::Triangle {
-                let mut triangle = [T::ZERO; length($n)];
+                let mut triangle = [T::ZERO; most($n)];
                 set_identity(&mut triangle, $n);
                 triangle
             }
@@ -138,6 +142,7 @@ where
     type Noise = Grid<T, P, P>;
     type Errors = Grid<T, M, P>;
     type Parameters = Grid<T, N, M>;
+    type Scratch = Grid<T, N, SCRATCH>;
     type List = [T; L];
 
     #[inline(always)]
@@ -173,6 +178,9 @@ where
     fn theta(&self) -> Self::Parameters {
         Grid([[T::ZERO; N]; M])
     }
+    fn scratch(&self) -> Self::Scratch {
+        Grid([[T::ZERO; N]; SCRATCH])
+    }
     fn list(&self, _: usize) -> [T; L] {
         [T::ZERO; L]
     }
@@ -186,7 +194,8 @@ pub use dynamic::{Aligned, Dynamic};
 
 #[cfg(feature = "alloc")]
 mod dynamic {
-    use super::{length, set_identity, Memory, PhantomData};
+    use super::{set_identity, Memory, PhantomData, SCRATCH};
+    use crate::factor::kernel::capacity;
     use crate::{Error, Real};
     use alloc::{vec, vec::Vec};
 
@@ -277,6 +286,7 @@ mod dynamic {
         type Noise = Aligned<T>;
         type Errors = Aligned<T>;
         type Parameters = Aligned<T>;
+        type Scratch = Aligned<T>;
         type List = Aligned<T>;
 
         #[inline(always)]
@@ -295,7 +305,7 @@ mod dynamic {
             Aligned::zeros(self.parameters)
         }
         fn packed(&self) -> Aligned<T> {
-            let mut columns = Aligned::zeros(length(self.parameters));
+            let mut columns = Aligned::zeros(capacity::<T>(self.parameters));
             set_identity(columns.as_mut(), self.parameters);
             columns
         }
@@ -313,6 +323,9 @@ mod dynamic {
         }
         fn theta(&self) -> Aligned<T> {
             Aligned::zeros(self.targets * self.parameters)
+        }
+        fn scratch(&self) -> Aligned<T> {
+            Aligned::zeros(SCRATCH * self.parameters)
         }
         fn list(&self, length: usize) -> Aligned<T> {
             Aligned::zeros(length.min(Self::LONGEST_LIST))

@@ -1,14 +1,16 @@
 //! Neighbouring numbers that go through the same operations together.
 
-use crate::Real;
+use crate::{Lane, One, Real};
+use core::array;
+use core::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A chunk of numbers ([`Real::Chunk`]) in vector registers.
 ///
 /// A number type has one for every set of instructions that it may run on; all give the same
 /// bits.
-pub trait Vector<T: Real>: Copy {
-    /// `x` in every lane.
-    fn splat(x: T) -> Self;
+pub trait Vector<T: Real>: Lane<T> {
+    /// A single number, as this set of instructions works fastest with one.
+    type One: One<T>;
     /// The numbers of `chunk`.
     fn load(chunk: &T::Chunk) -> Self;
     /// The numbers of `first`, at most [`HALF`]; 0 in the other lanes.
@@ -21,8 +23,6 @@ pub trait Vector<T: Real>: Copy {
     fn store_first(self, first: &mut [T]);
     /// Writes the first [`HALF`] lanes to `half`.
     fn store_half(self, half: &mut [T; HALF]);
-    /// `self * factor + term`, lane by lane.
-    fn mul_add(self, factor: Self, term: Self) -> Self;
     /// The sum of all lanes: halves added to halves down to four, then pairs.
     fn sum(self) -> T;
     /// The sum of each of `C` vectors.
@@ -43,11 +43,77 @@ pub const HALF: usize = 8;
 #[derive(Clone, Copy, Debug)]
 pub struct Lanes<T, const L: usize>([T; L]);
 
-impl<T: Real<Chunk = [T; L]>, const L: usize> Vector<T> for Lanes<T, L> {
+macro_rules! lane_by_lane {
+    ($($Trait:ident $method:ident;)*) => {$(
+        impl<T: Real, const L: usize> $Trait for Lanes<T, L> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(mut self, other: Self) -> Self {
+                for lane in 0..L {
+                    self.0[lane] = self.0[lane].$method(other.0[lane]);
+                }
+                self
+            }
+        }
+    )*};
+}
+lane_by_lane! { Add add; Sub sub; Mul mul; Div div; }
+
+impl<T: Real, const L: usize> Neg for Lanes<T, L> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(self.0.map(Neg::neg))
+    }
+}
+
+impl<T: Real, const L: usize> Lane<T> for Lanes<T, L> {
+    type Mask = [bool; L];
+
     #[inline(always)]
     fn splat(x: T) -> Self {
         Self([x; L])
     }
+    #[inline(always)]
+    fn mul_add(mut self, factor: Self, term: Self) -> Self {
+        for lane in 0..L {
+            self.0[lane] = Real::mul_add(self.0[lane], factor.0[lane], term.0[lane]);
+        }
+        self
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(array::from_fn(|lane| Real::max(self.0[lane], other.0[lane])))
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(self.0.map(Real::abs))
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(self.0.map(Real::sqrt))
+    }
+    #[inline(always)]
+    fn at_most(self, limit: Self) -> [bool; L] {
+        array::from_fn(|lane| self.0[lane] <= limit.0[lane])
+    }
+    #[inline(always)]
+    fn less_than(self, limit: Self) -> [bool; L] {
+        array::from_fn(|lane| self.0[lane] < limit.0[lane])
+    }
+    #[inline(always)]
+    fn both(a: [bool; L], b: [bool; L]) -> [bool; L] {
+        array::from_fn(|lane| a[lane] & b[lane])
+    }
+    #[inline(always)]
+    fn select(mask: [bool; L], yes: Self, no: Self) -> Self {
+        Self(array::from_fn(|lane| T::select(mask[lane], yes.0[lane], no.0[lane])))
+    }
+}
+
+impl<T: Real<Chunk = [T; L]>, const L: usize> Vector<T> for Lanes<T, L> {
+    type One = T;
+
     #[inline(always)]
     fn load(chunk: &[T; L]) -> Self {
         Self(*chunk)
@@ -79,13 +145,6 @@ impl<T: Real<Chunk = [T; L]>, const L: usize> Vector<T> for Lanes<T, L> {
     #[inline(always)]
     fn store_half(self, half: &mut [T; HALF]) {
         half.copy_from_slice(&self.0[..HALF]);
-    }
-    #[inline(always)]
-    fn mul_add(mut self, factor: Self, term: Self) -> Self {
-        for lane in 0..L {
-            self.0[lane] = self.0[lane].mul_add(factor.0[lane], term.0[lane]);
-        }
-        self
     }
     #[inline(always)]
     fn sum(self) -> T {

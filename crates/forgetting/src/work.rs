@@ -7,6 +7,8 @@ use crate::Memory;
 pub struct Work<M: Memory> {
     /// n: for the gain
     pub gain: M::Vector,
+    /// for the kernels
+    pub(crate) scratch: M::Scratch,
     /// p x n: for directions
     pub first: M::Rows,
     /// p x n: for more directions
@@ -16,6 +18,11 @@ pub struct Work<M: Memory> {
 impl<M: Memory> Work<M> {
     /// Buffers of these sizes.
     pub fn new(memory: M) -> Self {
-        Self { gain: memory.vector(), first: memory.regressors(), second: memory.regressors() }
+        Self {
+            gain: memory.vector(),
+            scratch: memory.scratch(),
+            first: memory.regressors(),
+            second: memory.regressors(),
+        }
     }
 }

@@ -1,11 +1,11 @@
 //! Adding information: P⁻¹ ← P⁻¹ + fᵀf. P can only shrink, and never below D ≥ floor.
 
-use super::kernel::{self, Step, Stepped};
-use super::Factor;
+use super::kernel::{self, Measure, Place, Steps, Told};
+use super::{Factor, Form};
 use crate::{Error, Memory, Real};
 
 /// What one scalar measurement with unit variance brings.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Measured<T> {
     /// s = f·P·fᵀ, with the P of before
     pub leverage: T,
@@ -15,6 +15,8 @@ pub struct Measured<T> {
     pub inverse_variance: T,
     /// the largest element of D after it
     pub largest: T,
+    /// whether anything was forgotten on the way
+    pub forgot: bool,
 }
 
 impl<M: Memory> Factor<M> {
@@ -25,45 +27,65 @@ impl<M: Memory> Factor<M> {
         kernel::bierman(self.columns.as_mut(), self.diagonal.as_mut(), f, gain)
     }
 
-    /// P ← `growth`·P, then [`Factor::add_information`], then θ ← θ + P·fᵀe for the n numbers of
-    /// `theta` that belong to each e of `errors`: all of it in one pass over U.
+    /// Forgets as `form` says, then [`Factor::add_information`], then θ ← θ + P·fᵀe for the n numbers
+    /// of `theta` that belong to each e of `errors`: all of it in one pass over U.
     ///
-    /// Call [`Factor::reserve`] first.
+    /// `squares` is ‖f‖²; `scratch` holds [`kernel::SCRATCH`] n numbers.
+    ///
+    /// # Errors
+    /// [`Error::Range`] when P would leave the range of the number type; P is as it was.
     #[inline]
     pub(crate) fn measure(
         &mut self,
-        growth: M::Real,
-        f: &[M::Real],
-        gain: &mut [M::Real],
-        correct: (&mut [M::Real], &[M::Real]),
-    ) -> Measured<M::Real> {
-        let factor = (self.columns.as_mut(), self.diagonal.as_mut(), growth);
-        kernel::measure(factor, f, gain, correct)
+        form: Form<M::Real>,
+        (f, squares): (&[M::Real], M::Real),
+        scratch: &mut [M::Real],
+        (theta, errors): (&mut [M::Real], &[M::Real]),
+    ) -> Result<Measured<M::Real>, Error> {
+        let before = self.trace_bound;
+        for tightened in [false, true] {
+            if tightened {
+                self.tighten();
+            }
+            let place = self.place(scratch);
+            let task = Measure { place, form, f, squares, theta, errors };
+            if let Some(measured) = M::Real::compute(task) {
+                return Ok(measured);
+            }
+        }
+        let (growth, added) = match form {
+            Form::Scale { growth } => (growth, M::Real::ZERO),
+            Form::Along { weight, .. } => {
+                let information = self.information_along(f, &mut scratch[..f.len()]);
+                (M::Real::ONE, weight / information * squares)
+            }
+        };
+        let refused = self.reserve(growth, added);
+        self.trace_bound = before;
+        refused.map(|()| unreachable!("the kernel found no room"))
     }
 
-    /// e = y − φθ, P ← `growth`·P, [`Factor::add_information`] and θ ← θ + P·φᵀe, all or nothing:
-    /// the error, ‖φ‖² and what was measured, unless the sample or `growth` is too large.
+    /// Takes samples of one row and one target, until one is to be refused or looked at closely;
+    /// returns how many it took.
     ///
-    /// # Errors
-    /// [`Error::Range`] as for [`Factor::reserve`], if the sample itself is one to accept.
+    /// The sizes are those of [`Steps`](kernel), `scratch` as above.
     #[inline]
-    pub(crate) fn step(
+    pub(crate) fn advance(
         &mut self,
-        growth: M::Real,
-        (phi, y): (&[M::Real], M::Real),
-        gain: &mut [M::Real],
+        form: Form<M::Real>,
+        (phi, y): (&[M::Real], &[M::Real]),
+        scratch: &mut [M::Real],
         theta: &mut [M::Real],
-    ) -> (Stepped<M::Real>, Result<(), Error>) {
-        let before = self.trace_bound;
-        let room = self.reserve(growth, M::Real::ZERO);
+        (told, thetas): (&mut [Told<M::Real>], &mut [M::Real]),
+    ) -> usize {
+        let place = self.place(scratch);
+        M::Real::compute(Steps { place, form, phi, y, theta, told, thetas })
+    }
+
+    #[inline]
+    fn place<'a>(&'a mut self, scratch: &'a mut [M::Real]) -> Place<'a, M::Real> {
         let (columns, diagonal) = (self.columns.as_mut(), self.diagonal.as_mut());
-        let refused = room.is_err();
-        let stepped =
-            M::Real::compute(Step { columns, diagonal, growth, phi, y, gain, theta, refused });
-        if stepped.measured.is_none() {
-            self.trace_bound = before;
-        }
-        (stepped, room)
+        Place { columns, diagonal, scratch, bound: &mut self.trace_bound }
     }
 
     /// f·P·fᵀ for n numbers `f`.

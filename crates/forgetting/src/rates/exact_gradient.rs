@@ -110,7 +110,7 @@ impl<M: Memory> Sensitivity<M> {
                 add_scaled(&mut z[i..], -h[i], &g[i..]);
             }
         }
-        subtract(factor, covariance);
+        subtract(factor, covariance, h);
         for i in 0..n {
             for j in i..n {
                 let z = covariance[i * n + j] / lambda;
@@ -152,10 +152,11 @@ impl<M: Memory> Sensitivity<M> {
 }
 
 /// The upper triangle of `matrix` −= that of P = Σ_j D_j u_j u_jᵀ, O(n³/6).
-fn subtract<M: Memory>(factor: &Factor<M>, matrix: &mut [M::Real]) {
+fn subtract<M: Memory>(factor: &Factor<M>, matrix: &mut [M::Real], u: &mut [M::Real]) {
     let n = factor.parameters();
     for (j, &d) in factor.diagonal_elements().iter().enumerate() {
-        let u = factor.column(j);
+        factor.get_column(j, u);
+        let u = &u[..j];
         for (i, &x) in u.iter().enumerate() {
             let row = &mut matrix[i * n + i..];
             add_scaled(row, -(d * x), &u[i..]);

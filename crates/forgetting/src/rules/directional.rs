@@ -24,6 +24,7 @@
 
 use super::{About, Claim, Forgetting, Forgotten, Skip, Step};
 use crate::directions::forget_along_sample;
+use crate::factor::{DeadZone, Form};
 use crate::parameter::{Parameter, Range, Value, Values};
 use crate::{Error, Memory, Real};
 
@@ -79,6 +80,12 @@ impl<M: Memory> Forgetting<M> for Directional<M> {
 
     fn is_bounded(&self) -> bool {
         self.threshold > M::Real::ZERO
+    }
+
+    #[inline]
+    fn form(&self, forgetting_factor: M::Real) -> Option<Form<M::Real>> {
+        let weight = (M::Real::ONE - forgetting_factor) / forgetting_factor;
+        Some(Form::Along { weight, dead_zone: DeadZone::UpTo(self.threshold) })
     }
 
     #[inline]

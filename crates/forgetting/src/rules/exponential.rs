@@ -20,6 +20,7 @@
 //! variable-direction forgetting*, IEEE Control Systems Magazine 40(4), 2020, Theorem 1.
 
 use super::{About, Claim, Forgetting, Forgotten, Step};
+use crate::factor::Form;
 use crate::parameter::{Value, Values};
 use crate::{Error, Memory, Real};
 use core::marker::PhantomData;
@@ -61,8 +62,8 @@ impl<M: Memory> Forgetting<M> for Exponential<M> {
     fn start(&self, _: M) {}
 
     #[inline]
-    fn scaling(&self, forgetting_factor: M::Real) -> Option<M::Real> {
-        Some(M::Real::ONE / forgetting_factor)
+    fn form(&self, forgetting_factor: M::Real) -> Option<Form<M::Real>> {
+        Some(Form::Scale { growth: M::Real::ONE / forgetting_factor })
     }
 
     #[inline]

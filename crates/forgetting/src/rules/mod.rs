@@ -8,6 +8,7 @@ mod about;
 
 pub use about::{About, Claim};
 
+use crate::factor::Form;
 use crate::parameter::{Value, Values};
 use crate::state::{State, Visitor};
 use crate::{Error, Factor, Memory, Sample, Work};
@@ -122,12 +123,12 @@ pub trait Forgetting<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
         false
     }
 
-    /// What P is multiplied with, if the rule does nothing else and keeps no state: P̄ = c·P.
+    /// What the rule does with this forgetting factor for a sample of one row, if it keeps no state
+    /// and it is one of the ways that the factor forgets in while it measures.
     ///
-    /// The estimator then need not call [`Forgetting::forget`], which must do the same: it scales
-    /// P while it measures.
+    /// The estimator then does not call [`Forgetting::forget`], which must do the same.
     #[inline]
-    fn scaling(&self, forgetting_factor: M::Real) -> Option<M::Real> {
+    fn form(&self, forgetting_factor: M::Real) -> Option<Form<M::Real>> {
         let _ = forgetting_factor;
         None
     }
@@ -222,9 +223,9 @@ macro_rules! choice_of_rules {
             }
 
             #[inline]
-            fn scaling(&self, forgetting_factor: M::Real) -> Option<M::Real> {
+            fn form(&self, forgetting_factor: M::Real) -> Option<Form<M::Real>> {
                 match self {
-                    $(Self::$Variant(rule) => rule.scaling(forgetting_factor),)*
+                    $(Self::$Variant(rule) => rule.form(forgetting_factor),)*
                 }
             }
 

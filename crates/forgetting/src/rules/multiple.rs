@@ -28,7 +28,7 @@
 //! stability and robustness guarantees*, IEEE Transactions on Automatic Control, 2024, V-J.
 
 use super::{About, Claim, Forgetting, Forgotten, Step};
-use crate::factor::kernel::{self, add_scaled, bierman, dot, length, set_identity};
+use crate::factor::kernel::{add_scaled, bierman, dot, length, place, set_identity};
 use crate::parameter::{Kind, Parameter, Range, Value, Values};
 use crate::state::{State, Visitor};
 use crate::{Error, Factor, Memory, Real};
@@ -158,7 +158,7 @@ impl<M: Memory> Blocks<M> {
     fn start_block(&mut self, factor: &Factor<M>, start: usize, size: usize, offset: usize) {
         let n = factor.parameters();
         let rows = &mut self.work.as_mut()[..size * n];
-        let columns = &mut self.columns.as_mut()[offset..offset + length(size)];
+        let columns = &mut self.columns.as_mut()[offset..offset + length::<M::Real>(size)];
         set_identity(columns, size);
         for t in 0..size {
             let (done, row) = rows.split_at_mut(t * n);
@@ -169,12 +169,14 @@ impl<M: Memory> Blocks<M> {
             for (x, &d) in row.iter_mut().zip(factor.diagonal_elements()) {
                 *x /= d.sqrt();
             }
-            let (before, column) = columns.split_at_mut(kernel::start(t));
             for (u, q) in done.chunks_exact(n).enumerate() {
                 let share = dot(q, row) / dot(q, q);
                 add_scaled(row, -share, q);
-                column[u] -= share;
-                add_scaled(column, -share, crate::factor::kernel::column(before, u));
+                columns[place::<M::Real>(u, t)] -= share;
+                for i in 0..u {
+                    let above = columns[place::<M::Real>(i, u)];
+                    columns[place::<M::Real>(i, t)] -= share * above;
+                }
             }
             self.diagonal.as_mut()[start + t] =
                 (M::Real::ONE / dot(row, row)).max(M::Real::FLOOR).min(M::Real::CEILING);
@@ -220,14 +222,14 @@ impl<M: Memory> Forgetting<M> for Multiple<M> {
             let mut offset = 0;
             for (start, size, _) in self.blocks() {
                 state.start_block(step.factor, start, size, offset);
-                offset += length(size);
+                offset += length::<M::Real>(size);
             }
             state.started = 1;
         }
         step.factor.clear_columns();
         let mut offset = 0;
         for (start, size, lambda) in self.blocks() {
-            let columns = &mut state.columns.as_mut()[offset..offset + length(size)];
+            let columns = &mut state.columns.as_mut()[offset..offset + length::<M::Real>(size)];
             let diagonal = &mut state.diagonal.as_mut()[start..start + size];
             diagonal.iter_mut().for_each(|d| *d = (*d / lambda).min(M::Real::CEILING));
             step.factor.put_block(start, columns, diagonal);

@@ -19,6 +19,7 @@
 //! stability and robustness guarantees*, IEEE Transactions on Automatic Control, 2024.
 
 use super::{About, Claim, Forgetting, Forgotten, Step};
+use crate::factor::Form;
 use crate::parameter::{Value, Values};
 use crate::{Error, Memory, Real};
 use core::marker::PhantomData;
@@ -64,8 +65,8 @@ impl<M: Memory> Forgetting<M> for NoForgetting<M> {
     }
 
     #[inline]
-    fn scaling(&self, _: M::Real) -> Option<M::Real> {
-        Some(M::Real::ONE)
+    fn form(&self, _: M::Real) -> Option<Form<M::Real>> {
+        Some(Form::Scale { growth: M::Real::ONE })
     }
 
     #[inline]

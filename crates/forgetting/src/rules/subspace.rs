@@ -27,6 +27,7 @@
 
 use super::{About, Claim, Forgetting, Forgotten, Skip, Step};
 use crate::directions::forget_along_sample;
+use crate::factor::{DeadZone, Form};
 use crate::parameter::{Parameter, Range, Value, Values};
 use crate::{Error, Memory, Real};
 
@@ -82,6 +83,12 @@ impl<M: Memory> Forgetting<M> for Subspace<M> {
 
     fn is_bounded(&self) -> bool {
         true
+    }
+
+    #[inline]
+    fn form(&self, forgetting_factor: M::Real) -> Option<Form<M::Real>> {
+        let weight = (M::Real::ONE - forgetting_factor) / forgetting_factor;
+        Some(Form::Along { weight, dead_zone: DeadZone::Below(self.threshold) })
     }
 
     #[inline]

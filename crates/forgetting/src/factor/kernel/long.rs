@@ -1,7 +1,8 @@
 //! Vectors of any length: products and sums.
 
+use super::layout::FEW;
 use crate::vector::Vector;
-use crate::{Kernel, Real};
+use crate::{Kernel, Lane, Real};
 
 /// Σ aᵢ bᵢ over the shorter of the two.
 pub struct Dot<'a, T> {
@@ -99,6 +100,9 @@ impl<T: Real> Kernel<T> for Arrive<'_, T> {
 #[inline(always)]
 pub fn products<T: Real, V: Vector<T>>(phi: &[T], theta: &[T]) -> (T, T) {
     let n = phi.len();
+    if n <= FEW {
+        return with_few!(n, few::<T>(phi, theta));
+    }
     let (phi, phi_rest) = T::chunks(phi);
     let (theta, theta_rest) = T::chunks(&theta[..n]);
     let (mut product, mut square) = (T::ZERO, T::ZERO);
@@ -114,6 +118,26 @@ pub fn products<T: Real, V: Vector<T>>(phi: &[T], theta: &[T]) -> (T, T) {
     for (&phi, &theta) in phi_rest.iter().zip(theta_rest) {
         product = phi.mul_add(theta, product);
         square = phi.mul_add(phi, square);
+    }
+    (product, square)
+}
+
+/// The same for N numbers, at most ten.
+#[inline(always)]
+fn few<T: Real, const N: usize>(phi: &[T], theta: &[T]) -> (T, T) {
+    match (phi.first_chunk::<N>(), theta.first_chunk::<N>()) {
+        (Some(phi), Some(theta)) => few_products(phi, theta),
+        _ => (T::ZERO, T::ZERO),
+    }
+}
+
+/// φ·θ and φ·φ, of one stream or of one in each lane.
+#[inline(always)]
+pub fn few_products<T: Real, A: Lane<T>, const N: usize>(phi: &[A; N], theta: &[A; N]) -> (A, A) {
+    let (mut product, mut square) = (A::splat(T::ZERO), A::splat(T::ZERO));
+    for i in 0..N {
+        product = phi[i].mul_add(theta[i], product);
+        square = phi[i].mul_add(phi[i], square);
     }
     (product, square)
 }

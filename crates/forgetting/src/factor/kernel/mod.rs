@@ -1,24 +1,63 @@
 //! The loops over U: one function per operation, on plain slices.
 //!
-//! `columns` holds the columns of U, each padded with zeros below its unit diagonal ([`start`]
-//! says where one starts); every inner loop runs along columns, over neighbouring numbers.
+//! `columns` holds the columns of U in tiles ([`place`] says where a number is); every inner loop
+//! runs along columns, over neighbouring numbers.
 //!
 //! Each loop is a [`Kernel`](crate::Kernel): the number type decides with which vectors and over
 //! how many columns at a time it runs. The bits of the result depend on neither.
 
+/// Calls `$function::<.., N>` with a number N of parameters, 1 to 8, as a constant.
+macro_rules! with_width {
+    ($n:expr, $function:ident::<$($T:ident),+>$arguments:tt) => {
+        match $n {
+            1 => $function::<$($T,)+ 1>$arguments,
+            2 => $function::<$($T,)+ 2>$arguments,
+            3 => $function::<$($T,)+ 3>$arguments,
+            4 => $function::<$($T,)+ 4>$arguments,
+            5 => $function::<$($T,)+ 5>$arguments,
+            6 => $function::<$($T,)+ 6>$arguments,
+            7 => $function::<$($T,)+ 7>$arguments,
+            _ => $function::<$($T,)+ 8>$arguments,
+        }
+    };
+}
+
+/// The same for 1 to 10.
+macro_rules! with_few {
+    ($n:expr, $function:ident::<$($T:ident),+>$arguments:tt) => {
+        match $n {
+            9 => $function::<$($T,)+ 9>$arguments,
+            10 => $function::<$($T,)+ 10>$arguments,
+            n => with_width!(n, $function::<$($T),+>$arguments),
+        }
+    };
+}
+
 mod agee_turner;
+mod along;
+mod batch;
 mod bierman;
-mod block;
 mod layout;
 mod long;
-mod step;
+mod measure;
+mod small;
+mod steps;
+mod tile;
+mod told;
 mod triangular;
 
-pub use layout::{column, column_mut, length, set_identity, start, visit};
-pub(crate) use step::{Step, Stepped};
+pub use layout::{
+    capacity, column, get_column, length, most, place, put_column, set_identity, visit,
+};
+pub(crate) use measure::{Measure, Place};
+pub(crate) use steps::Steps;
+pub use told::Told;
 
-use super::Measured;
+use super::{Form, Measured};
 use crate::Real;
+
+/// How many numbers for each parameter the kernels need to work with.
+pub(crate) const SCRATCH: usize = along::Scratch::<f64>::EACH;
 
 /// Σ aᵢ bᵢ over the shorter of the two, in 8 (f64) or 16 (f32) partial sums.
 #[inline(always)]
@@ -54,20 +93,13 @@ pub fn bierman<T: Real>(
     f: &[T],
     gain: &mut [T],
 ) -> Measured<T> {
-    let (growth, theta, errors) = (T::ONE, &mut [][..], &[][..]);
-    T::compute(bierman::Bierman { columns, diagonal, growth, f, gain, theta, errors })
-}
-
-/// The same after P ← `growth`·P, and with the correction of the n numbers of `theta` for each
-/// of `errors`: θ ← θ + P₊fᵀe.
-#[inline(always)]
-pub(crate) fn measure<T: Real>(
-    (columns, diagonal, growth): (&mut [T], &mut [T], T),
-    f: &[T],
-    gain: &mut [T],
-    (theta, errors): (&mut [T], &[T]),
-) -> Measured<T> {
-    T::compute(bierman::Bierman { columns, diagonal, growth, f, gain, theta, errors })
+    let place = Place { columns, diagonal, scratch: gain, bound: &mut { T::ZERO } };
+    let (theta, errors) = (&mut [][..], &[][..]);
+    let form = Form::Scale { growth: T::ONE };
+    match T::compute(Measure { place, form, f, squares: T::ONE, theta, errors }) {
+        Some(measured) => measured,
+        None => unreachable!("there is room for what does not grow"),
+    }
 }
 
 /// Agee and Turner's update: P ← P + c·x·xᵀ with c ≥ 0. Uses up `x`. O(n²).

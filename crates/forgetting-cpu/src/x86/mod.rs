@@ -8,12 +8,14 @@ use crate::Fused;
 use core::arch::x86_64::*;
 use forgetting::vector::{Vector, HALF};
 
+mod lanes;
+
 /// Two registers of 256 bits.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub struct Pair<R>(R, R);
 
 /// A register of 512 bits.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub struct Wide<R>(R);
 
 impl Vectors for Fused<f64> {
@@ -25,6 +27,11 @@ impl Vectors for Fused<f32> {
     type Fused = Pair<__m256>;
     type Wide = Wide<__m512>;
 }
+
+/// One number, in every lane of a register of 128 bits: the compiler would pair single numbers
+/// with their neighbours, which costs more steps than it saves where each waits for the one before.
+#[derive(Clone, Copy, Debug)]
+pub struct Same<R>(R);
 
 /// The address of the numbers of an array.
 macro_rules! at {
@@ -80,10 +87,8 @@ unsafe fn masks32(count: usize) -> __m256i {
 // loads and stores need no alignment.
 
 impl Vector<Fused<f64>> for Wide<__m512d> {
-    #[inline(always)]
-    fn splat(x: Fused<f64>) -> Self {
-        Self(unsafe { _mm512_set1_pd(x.0) })
-    }
+    type One = Same<__m128d>;
+
     #[inline(always)]
     fn load(chunk: &[Fused<f64>; 8]) -> Self {
         Self(unsafe { _mm512_loadu_pd(at!(chunk, f64, 0)) })
@@ -109,10 +114,6 @@ impl Vector<Fused<f64>> for Wide<__m512d> {
         self.store(half);
     }
     #[inline(always)]
-    fn mul_add(self, factor: Self, term: Self) -> Self {
-        Self(unsafe { _mm512_fmadd_pd(self.0, factor.0, term.0) })
-    }
-    #[inline(always)]
     fn sum(self) -> Fused<f64> {
         Pair(unsafe { _mm512_castpd512_pd256(self.0) }, unsafe {
             _mm512_extractf64x4_pd::<1>(self.0)
@@ -121,12 +122,27 @@ impl Vector<Fused<f64>> for Wide<__m512d> {
     }
 }
 
-impl Vector<Fused<f64>> for Pair<__m256d> {
-    #[inline(always)]
-    fn splat(x: Fused<f64>) -> Self {
-        let x = unsafe { _mm256_set1_pd(x.0) };
-        Self(x, x)
+/// The sums of four vectors: what `sum` does to each, side by side.
+///
+/// # Safety
+/// The machine has AVX.
+#[inline(always)]
+unsafe fn sums_of_four(vectors: &[Pair<__m256d>; 4]) -> [Fused<f64>; 4] {
+    let mut sums = [Fused(0.0); 4];
+    // SAFETY: the instructions by the caller's promise; `Fused` has the layout of its number
+    unsafe {
+        let [a, b, c, d] = vectors.map(|Pair(low, high)| _mm256_add_pd(low, high));
+        let (ab, cd) = (_mm256_hadd_pd(a, b), _mm256_hadd_pd(c, d));
+        let low = _mm256_permute2f128_pd::<0x20>(ab, cd);
+        let high = _mm256_permute2f128_pd::<0x31>(ab, cd);
+        _mm256_storeu_pd(at_mut!(sums, f64, 0), _mm256_add_pd(low, high));
     }
+    sums
+}
+
+impl Vector<Fused<f64>> for Pair<__m256d> {
+    type One = Same<__m128d>;
+
     #[inline(always)]
     fn load(chunk: &[Fused<f64>; 8]) -> Self {
         unsafe { Self(_mm256_loadu_pd(at!(chunk, f64, 0)), _mm256_loadu_pd(at!(chunk, f64, 4))) }
@@ -165,15 +181,6 @@ impl Vector<Fused<f64>> for Pair<__m256d> {
         self.store(half);
     }
     #[inline(always)]
-    fn mul_add(self, factor: Self, term: Self) -> Self {
-        unsafe {
-            Self(
-                _mm256_fmadd_pd(self.0, factor.0, term.0),
-                _mm256_fmadd_pd(self.1, factor.1, term.1),
-            )
-        }
-    }
-    #[inline(always)]
     fn sum(self) -> Fused<f64> {
         unsafe {
             let four = _mm256_add_pd(self.0, self.1);
@@ -183,13 +190,24 @@ impl Vector<Fused<f64>> for Pair<__m256d> {
             Fused(_mm_cvtsd_f64(_mm_add_sd(pairs, _mm_unpackhi_pd(pairs, pairs))))
         }
     }
+    #[inline(always)]
+    fn sums<const C: usize>(vectors: [Self; C]) -> [Fused<f64>; C] {
+        let mut sums = [Fused(0.0); C];
+        let (fours, rest) = vectors.as_chunks::<4>();
+        let (sums_of_fours, sums_of_rest) = sums.as_chunks_mut::<4>();
+        for (sums, four) in sums_of_fours.iter_mut().zip(fours) {
+            *sums = unsafe { sums_of_four(four) };
+        }
+        for (sum, vector) in sums_of_rest.iter_mut().zip(rest) {
+            *sum = vector.sum();
+        }
+        sums
+    }
 }
 
 impl Vector<Fused<f32>> for Wide<__m512> {
-    #[inline(always)]
-    fn splat(x: Fused<f32>) -> Self {
-        Self(unsafe { _mm512_set1_ps(x.0) })
-    }
+    type One = Same<__m128>;
+
     #[inline(always)]
     fn load(chunk: &[Fused<f32>; 16]) -> Self {
         Self(unsafe { _mm512_loadu_ps(at!(chunk, f32, 0)) })
@@ -216,10 +234,6 @@ impl Vector<Fused<f32>> for Wide<__m512> {
         unsafe { _mm256_storeu_ps(at_mut!(half, f32, 0), _mm512_castps512_ps256(self.0)) }
     }
     #[inline(always)]
-    fn mul_add(self, factor: Self, term: Self) -> Self {
-        Self(unsafe { _mm512_fmadd_ps(self.0, factor.0, term.0) })
-    }
-    #[inline(always)]
     fn sum(self) -> Fused<f32> {
         Pair(unsafe { _mm512_castps512_ps256(self.0) }, unsafe {
             _mm512_extractf32x8_ps::<1>(self.0)
@@ -229,11 +243,8 @@ impl Vector<Fused<f32>> for Wide<__m512> {
 }
 
 impl Vector<Fused<f32>> for Pair<__m256> {
-    #[inline(always)]
-    fn splat(x: Fused<f32>) -> Self {
-        let x = unsafe { _mm256_set1_ps(x.0) };
-        Self(x, x)
-    }
+    type One = Same<__m128>;
+
     #[inline(always)]
     fn load(chunk: &[Fused<f32>; 16]) -> Self {
         unsafe { Self(_mm256_loadu_ps(at!(chunk, f32, 0)), _mm256_loadu_ps(at!(chunk, f32, 8))) }
@@ -263,15 +274,6 @@ impl Vector<Fused<f32>> for Pair<__m256> {
     #[inline(always)]
     fn store_half(self, half: &mut [Fused<f32>; HALF]) {
         unsafe { _mm256_storeu_ps(at_mut!(half, f32, 0), self.0) }
-    }
-    #[inline(always)]
-    fn mul_add(self, factor: Self, term: Self) -> Self {
-        unsafe {
-            Self(
-                _mm256_fmadd_ps(self.0, factor.0, term.0),
-                _mm256_fmadd_ps(self.1, factor.1, term.1),
-            )
-        }
     }
     #[inline(always)]
     fn sum(self) -> Fused<f32> {

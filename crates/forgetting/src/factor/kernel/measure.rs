@@ -1,0 +1,171 @@
+//! One row of one sample: forgetting in one of the forms of [`Form`], the measurement and the
+//! correction of θ, for any number of targets.
+
+use super::along::{self, Scratch};
+use super::bierman::{self, Chain};
+use super::layout::FEW;
+use super::long::add_scaled_by;
+use super::small::{Gain, Small};
+use crate::factor::{Form, Measured};
+use crate::vector::Vector;
+use crate::{Kernel, Lane, One, Real};
+
+/// The factor and what goes with it.
+pub struct Place<'a, T> {
+    pub columns: &'a mut [T],
+    pub diagonal: &'a mut [T],
+    /// [`Scratch::EACH`]·n numbers; P·fᵀ, with the P just before the measurement, comes first
+    pub scratch: &'a mut [T],
+    /// at least the trace of P
+    pub bound: &'a mut T,
+}
+
+/// Forgets, measures f and corrects the n numbers of `theta` for each of `errors`, unless there
+/// is no room for P; `f` has the squared length `squares`.
+pub struct Measure<'a, T> {
+    pub place: Place<'a, T>,
+    pub form: Form<T>,
+    pub f: &'a [T],
+    pub squares: T,
+    pub theta: &'a mut [T],
+    pub errors: &'a [T],
+}
+
+impl<T: Real> Kernel<T> for Measure<'_, T> {
+    type Output = Option<Measured<T>>;
+
+    #[inline(always)]
+    fn size(&self) -> usize {
+        self.f.len()
+    }
+
+    #[inline(always)]
+    fn run<V: Vector<T>, const GROUP: usize>(mut self) -> Option<Measured<T>> {
+        let n = self.f.len();
+        let Self { ref mut place, form, f, squares, .. } = self;
+        let measured = if n <= FEW {
+            with_few!(n, few::<T, T>(place, form, f, squares))?
+        } else {
+            many::<T, V, GROUP>(place, form, f, squares)?
+        };
+        for (theta, &error) in self.theta.chunks_exact_mut(n).zip(self.errors) {
+            add_scaled_by::<T, V>(theta, error * measured.inverse_variance, &place.scratch[..n]);
+        }
+        Some(measured)
+    }
+}
+
+impl<T: Real> Place<'_, T> {
+    /// Whether P may grow so; if so, the bound follows.
+    #[inline(always)]
+    fn make_room(&mut self, growth: T, added: T) -> Option<()> {
+        let bound = *self.bound * growth + added;
+        (bound < T::CEILING).then(|| *self.bound = bound)
+    }
+}
+
+/// For at most ten parameters.
+#[inline(always)]
+fn few<T: Real, A: One<T>, const N: usize>(
+    place: &mut Place<'_, T>,
+    form: Form<T>,
+    f: &[T],
+    squares: T,
+) -> Option<Measured<T>> {
+    let (f, d) = (f.first_chunk::<N>()?, place.diagonal.first_chunk::<N>()?);
+    let mut small = Small::<A, N>::load(place.columns, d);
+    let (gain, forgot) = take(&mut small, place, form, &f.map(Lane::splat), squares)?;
+    small.store(place.columns, place.diagonal.first_chunk_mut()?);
+    for (k, gain) in place.scratch.iter_mut().zip(gain.k) {
+        *k = gain.get();
+    }
+    Some(Measured {
+        leverage: gain.s.get(),
+        variance: gain.a.get(),
+        inverse_variance: gain.inverse_a.get(),
+        largest: gain.largest.get(),
+        forgot,
+    })
+}
+
+/// Forgets and measures in registers, unless there is no room; says whether anything was forgotten.
+#[inline(always)]
+pub fn take<T: Real, A: One<T>, const N: usize>(
+    small: &mut Small<A, N>,
+    place: &mut Place<'_, T>,
+    form: Form<T>,
+    f: &[A; N],
+    squares: T,
+) -> Option<(Gain<A, N>, bool)> {
+    let one = A::splat;
+    match form {
+        Form::Scale { growth } => {
+            place.make_room(growth, T::ZERO)?;
+            Some((small.scale_and_measure(one(growth), f), growth > T::ONE))
+        }
+        Form::Along { weight, .. } => {
+            let mut along = small.along(f);
+            let information = along.information.get();
+            let c = weight / information;
+            if !adds(c) {
+                (along.z, along.q) = ([one(T::ZERO); N], [one(T::ZERO); N]);
+                let nothing = (one(T::ZERO), one(T::ONE));
+                return Some((small.add_and_measure(nothing, &along, f), false));
+            }
+            place.make_room(T::ONE, c * squares)?;
+            let added = (one(c), one(information / weight));
+            Some((small.add_and_measure(added, &along, f), true))
+        }
+    }
+}
+
+/// Whether c·fᵀf is to be added: not for λ = 1 or f = 0, nor for more information than the number
+/// type can hold.
+#[inline(always)]
+fn adds<T: Real>(c: T) -> bool {
+    c > T::ZERO && c.is_finite()
+}
+
+/// For more than ten.
+#[inline(always)]
+pub fn many<T: Real, V: Vector<T>, const GROUP: usize>(
+    place: &mut Place<'_, T>,
+    form: Form<T>,
+    f: &[T],
+    squares: T,
+) -> Option<Measured<T>> {
+    let (chain, forgot) = match form {
+        Form::Scale { growth } => {
+            place.make_room(growth, T::ZERO)?;
+            (scale::<T, V, GROUP>(place, growth, f), growth > T::ONE)
+        }
+        Form::Along { weight, .. } => {
+            let n = f.len();
+            let mut scratch = Scratch::of(place.scratch, n);
+            let information =
+                along::look::<T, V, GROUP>(place.columns, place.diagonal, f, &mut scratch);
+            let c = weight / information;
+            if adds(c) {
+                let t = information / weight;
+                place.make_room(T::ONE, c * squares)?;
+                let mut scratch = Scratch::of(place.scratch, n);
+                let (columns, diagonal) = (&mut *place.columns, &mut *place.diagonal);
+                let chain = along::add_and_measure::<T, V>(columns, diagonal, t, &mut scratch);
+                (chain, true)
+            } else {
+                (scale::<T, V, GROUP>(place, T::ONE, f), false)
+            }
+        }
+    };
+    Some(chain.measured(place.diagonal, forgot))
+}
+
+#[inline(always)]
+fn scale<T: Real, V: Vector<T>, const GROUP: usize>(
+    place: &mut Place<'_, T>,
+    growth: T,
+    f: &[T],
+) -> Chain<T> {
+    let k = &mut place.scratch[..f.len()];
+    bierman::scale_and_measure::<T, V, GROUP>(place.columns, place.diagonal, growth, f, k)
+}

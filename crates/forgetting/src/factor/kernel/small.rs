@@ -1,0 +1,241 @@
+//! One sample of at most ten parameters, in registers: of one stream, or of one in each lane.
+//!
+//! Measuring is Bierman's update (see [`super::bierman`]), adding covariance along the regressor
+//! that of Agee and Turner (see [`super::agee_turner`]), both with one pass over U:
+//!
+//! ```text
+//! z = U⁻¹f,  w = Uᵀf,  q = z / D;  fᵀP⁻¹f = Σ z q;  t = 1 / c
+//! for each column, from the last:   D'_j = D_j + z_j² / t,  t ← t + z_j q_j,  slope_j = q_j / t
+//! for each column, from the first:  w'_j = w_j + slope_j p,  p ← p + z_j w_j          (w' = U'ᵀf)
+//!                                   u' = u + slope_j x,  x ← x + z_j u,  then Bierman with u', w'
+//! ```
+
+#![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
+
+use super::layout::place;
+use crate::{Lane, One, Real};
+
+/// U above its diagonal, by columns, and D.
+#[derive(Clone, Copy)]
+pub struct Small<A, const N: usize> {
+    pub u: [[A; N]; N],
+    pub d: [A; N],
+}
+
+/// What measuring f brought.
+#[derive(Clone, Copy)]
+pub struct Gain<A, const N: usize> {
+    /// a times the gain: P·fᵀ with the P before the measurement
+    pub k: [A; N],
+    /// f·P·fᵀ
+    pub s: A,
+    /// 1 + s
+    pub a: A,
+    pub inverse_a: A,
+    /// the largest element of D
+    pub largest: A,
+}
+
+/// f in the coordinates of the factor.
+#[derive(Clone, Copy)]
+pub struct Along<A, const N: usize> {
+    /// U⁻¹f
+    pub z: [A; N],
+    /// z / D
+    pub q: [A; N],
+    /// fᵀP⁻¹f
+    pub information: A,
+}
+
+/// What passes through the columns in Bierman's update.
+struct Chain<A, const N: usize> {
+    v: [A; N],
+    /// 1/a before each column
+    inverse: [A; N],
+    s: A,
+    a: A,
+    inverse_a: A,
+    largest: A,
+}
+
+impl<A: Copy, const N: usize> Small<A, N> {
+    /// P ← `growth`·P, then P⁻¹ ← P⁻¹ + fᵀf.
+    #[inline(always)]
+    pub fn scale_and_measure<T: Real>(&mut self, growth: A, f: &[A; N]) -> Gain<A, N>
+    where
+        A: Lane<T>,
+    {
+        for d in &mut self.d {
+            *d = *d * growth;
+        }
+        let w = transposed(&self.u, f);
+        let chain = self.chain(&w);
+        let mut k = [A::splat(T::ZERO); N];
+        for c in 0..N {
+            let less_w = -w[c];
+            for i in 0..c {
+                let before = self.u[c][i];
+                // the reciprocal comes last
+                self.u[c][i] = (less_w * k[i]).mul_add(chain.inverse[c], before);
+                k[i] = chain.v[c].mul_add(before, k[i]);
+            }
+            k[c] = chain.v[c];
+        }
+        chain.gain(k)
+    }
+
+    /// f·P·fᵀ
+    #[inline(always)]
+    pub fn leverage<T: Real>(&self, f: &[A; N]) -> A
+    where
+        A: Lane<T>,
+    {
+        let w = transposed(&self.u, f);
+        (0..N).fold(A::splat(T::ZERO), |sum, c| (self.d[c] * w[c]).mul_add(w[c], sum))
+    }
+
+    /// What P⁻¹ holds along f.
+    #[inline(always)]
+    pub fn along<T: Real>(&self, f: &[A; N]) -> Along<A, N>
+    where
+        A: Lane<T>,
+    {
+        let (mut z, mut q, mut information) = (*f, *f, A::splat(T::ZERO));
+        for c in (0..N).rev() {
+            let less_z = -z[c];
+            for i in 0..c {
+                z[i] = less_z.mul_add(self.u[c][i], z[i]);
+            }
+            q[c] = z[c] / self.d[c];
+        }
+        for c in (0..N).rev() {
+            information = z[c].mul_add(q[c], information);
+        }
+        Along { z, q, information }
+    }
+
+    /// P ← P + c·fᵀf, then P⁻¹ ← P⁻¹ + fᵀf, with t = 1/c; where z and q are 0, c is 0 instead.
+    #[inline(always)]
+    pub fn add_and_measure<T: Real>(
+        &mut self,
+        (c, mut t): (A, A),
+        Along { z, q, .. }: &Along<A, N>,
+        f: &[A; N],
+    ) -> Gain<A, N>
+    where
+        A: Lane<T>,
+    {
+        let (one, zero) = (A::splat(T::ONE), A::splat(T::ZERO));
+        let mut w = transposed(&self.u, f);
+        let (mut slope, mut inverse_t, mut p) = ([zero; N], c, zero);
+        for c in (0..N).rev() {
+            self.d[c] = (z[c] * inverse_t).mul_add(z[c], self.d[c]);
+            t = z[c].mul_add(q[c], t);
+            inverse_t = one / t;
+            slope[c] = q[c] * inverse_t;
+        }
+        for c in 0..N {
+            let before = w[c];
+            w[c] = slope[c].mul_add(p, before);
+            p = z[c].mul_add(before, p);
+        }
+        let chain = self.chain(&w);
+        let (mut k, mut x) = ([zero; N], [zero; N]);
+        for c in 0..N {
+            let less_w = -w[c];
+            for i in 0..c {
+                let before = self.u[c][i];
+                let widened = slope[c].mul_add(x[i], before);
+                x[i] = z[c].mul_add(before, x[i]);
+                self.u[c][i] = (less_w * k[i]).mul_add(chain.inverse[c], widened);
+                k[i] = chain.v[c].mul_add(widened, k[i]);
+            }
+            (x[c], k[c]) = (z[c], chain.v[c]);
+        }
+        chain.gain(k)
+    }
+
+    /// D after the measurement of a regressor with w = Uᵀf, and what goes with it.
+    #[inline(always)]
+    fn chain<T: Real>(&mut self, w: &[A; N]) -> Chain<A, N>
+    where
+        A: Lane<T>,
+    {
+        let (one, zero) = (A::splat(T::ONE), A::splat(T::ZERO));
+        let (mut v, mut inverse, mut largest, mut s) = ([zero; N], [one; N], zero, zero);
+        let (mut a, mut inverse_a) = (one, one);
+        for c in 0..N {
+            let d = self.d[c];
+            v[c] = d * w[c];
+            let next = w[c].mul_add(v[c], a);
+            inverse[c] = inverse_a;
+            inverse_a = one / next;
+            self.d[c] = (d * (a * inverse_a)).max(A::splat(T::FLOOR));
+            largest = largest.max(self.d[c]);
+            a = next;
+        }
+        for c in (0..N).rev() {
+            s = w[c].mul_add(v[c], s);
+        }
+        Chain { v, inverse, s, a, inverse_a, largest }
+    }
+}
+
+impl<A: Copy, const N: usize> Chain<A, N> {
+    #[inline(always)]
+    fn gain(self, k: [A; N]) -> Gain<A, N> {
+        let Self { s, a, inverse_a, largest, .. } = self;
+        Gain { k, s, a, inverse_a, largest }
+    }
+}
+
+impl<A: Copy, const N: usize> Small<A, N> {
+    /// From the columns of U and from D.
+    #[inline(always)]
+    pub fn load<T: Real>(columns: &[T], diagonal: &[T; N]) -> Self
+    where
+        A: Lane<T>,
+    {
+        let mut u = [[A::splat(T::ZERO); N]; N];
+        for c in 0..N {
+            for i in 0..c {
+                u[c][i] = A::splat(columns[place::<T>(i, c)]);
+            }
+        }
+        Self { u, d: diagonal.map(A::splat) }
+    }
+
+    /// Back to where it came from.
+    #[inline(always)]
+    pub fn store<T: Real>(&self, columns: &mut [T], diagonal: &mut [T; N])
+    where
+        A: One<T>,
+    {
+        for c in 0..N {
+            for i in 0..c {
+                columns[place::<T>(i, c)] = self.u[c][i].get();
+            }
+        }
+        *diagonal = self.d.map(One::get);
+    }
+}
+
+/// Uᵀf, in two sums of which neither waits for the other.
+#[inline(always)]
+fn transposed<T: Real, A: Lane<T>, const N: usize>(u: &[[A; N]; N], f: &[A; N]) -> [A; N] {
+    let mut w = *f;
+    for c in 0..N {
+        let mut odd = A::splat(T::ZERO);
+        for i in 0..c {
+            if i % 2 == 0 {
+                w[c] = u[c][i].mul_add(f[i], w[c]);
+            } else {
+                odd = u[c][i].mul_add(f[i], odd);
+            }
+        }
+        if c > 1 {
+            w[c] = w[c] + odd;
+        }
+    }
+    w
+}
