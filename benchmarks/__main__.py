@@ -53,7 +53,10 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--quick", action="store_true", help="fewer turns, sizes and peers")
     parser.add_argument("--only", default=",".join(PARTS), help="some of: %(default)s")
     parser.add_argument("--sizes", default=",".join(map(str, SIZES)), help="some of: %(default)s")
-    return parser.parse_args()
+    asked = parser.parse_args()
+    if unknown := set(asked.only.split(",")) - set(PARTS):
+        parser.error(f"--only {', '.join(sorted(unknown))}, allowed: {', '.join(PARTS)}")
+    return asked
 
 
 def main() -> None:

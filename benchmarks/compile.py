@@ -101,9 +101,9 @@ def why(said: str) -> str:
     """What the compiler's or linker's message means."""
     signs = ("error:", "cannot find", "not found")
     told = [line for line in said.splitlines() if any(sign in line for sign in signs)]
-    first = told[0] if told else said[-200:]
+    first = (told[0] if told else said[-200:]).split("error:")[-1].strip()
     needed = [package for name, package in PACKAGES.items() if name in first]
-    return f"{first.strip()} (Debian: {needed[0]})" if needed else first.strip()
+    return f"{first} (Debian: {needed[0]})" if needed else first
 
 
 def build() -> None:

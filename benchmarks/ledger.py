@@ -26,6 +26,10 @@ class Ledger:
         self.missing[name] = str(reason)
         return "not available"
 
+    def absent(self, name: str) -> str:
+        """A table's word where a side did not run: it could not, or was not meant to."""
+        return "not available" if name in self.missing else ""
+
     def report(self) -> Iterator[str]:
         """Markdown."""
         yield "## Where we lose\n"

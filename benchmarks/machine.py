@@ -10,7 +10,7 @@ from collections.abc import Iterator
 import forgetting as fg
 
 from . import native
-from .compile import FLAG_SETS, NotAvailable, compiler_version
+from .compile import FLAG_SETS, FLAGS, NotAvailable, compiler_version
 from .cpu import caches, cores, level, model
 from .environment import THREADS
 from .ledger import Ledger
@@ -39,8 +39,10 @@ def compiled() -> Iterator[str]:
             yield native.version(source)
         except NotAvailable as missing:
             yield f"{source}: {missing}"
-    sets = [flags for sets in FLAG_SETS.values() for flags in sets.values()]
-    yield "flags " + "; ".join(f"`{flags}`" for flags in dict.fromkeys(sets))
+    added = [
+        flags.removeprefix(FLAGS).strip() for sets in FLAG_SETS.values() for flags in sets.values()
+    ]
+    yield f"flags `{FLAGS}`, also with " + ", ".join(f"`{flag}`" for flag in added if flag)
 
 
 def report(plan: Plan, ledger: Ledger) -> Iterator[str]:

@@ -85,7 +85,7 @@ def report(plan: Plan, ledger: Ledger) -> Iterator[str]:
         rows["`forgetting` run"].append(f"{mine.nanoseconds:.0f}")
         for name in list(rows)[1:]:
             if name not in sides:
-                rows[name].append("")
+                rows[name].append(ledger.absent(name))
                 continue
             theirs = sides[name].nanoseconds
             ratio = ledger.compare("record in Python", f"n = {n}", name, theirs / mine.nanoseconds)

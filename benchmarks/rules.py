@@ -95,7 +95,7 @@ def all_rules(plan: Plan) -> Iterator[str]:
         rows.append([*row, f"{skipped(16, name):.0%}"])
     header = ["rule", "cost"]
     header += [word for n in small for word in (f"n = {n}, µs", "over exponential")]
-    yield table([*header, "exponent, n = 64 to 512", "samples skipped, n = 16"], rows)
+    yield table([*header, "exponent from n = 64 on", "samples skipped, n = 16"], rows)
 
 
 def report(plan: Plan, ledger: Ledger) -> Iterator[str]:

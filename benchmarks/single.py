@@ -93,7 +93,7 @@ def rival(n: int, dtype: str, sides: dict[str, list[Side]], peer: str, ledger: L
     """The best variant of a peer beside ours: time, how it is written, ratio."""
     best = best_of(sides[f"{peer} {dtype}"], f"{peer} {dtype}")
     if best is None:
-        return ["", ""]
+        return [ledger.absent(peer), ""]
     ratio = best.nanoseconds / sides[f"ours {dtype}"][0].nanoseconds
     text = ledger.compare(f"single stream, {dtype}", f"n = {n}", peer, ratio)
     return [f"{best.nanoseconds:.1f} ({best.name})", text]
@@ -134,7 +134,7 @@ def exponents(found: dict[int, dict[str, list[Side]]]) -> Iterator[str]:
     """How time grows."""
     if len([n for n in found if n >= 64]) < 2:
         return
-    yield "\nExponent of time over n = 64 to 512:\n"
+    yield "\nExponent of time from n = 64 on:\n"
     rows = []
     for side in ("ours float64", "ours float32", "Eigen float64", "Eigen float32"):
         least = {n: min(s.least / s.each for s in by[side]) for n, by in found.items() if by[side]}
