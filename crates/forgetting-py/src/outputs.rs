@@ -139,6 +139,26 @@ impl<T: Number> Outputs<T> {
         push(&mut self.windup, false);
     }
 
+    /// Whether an output is taken from the estimator after each sample, other than θ.
+    pub fn need_every_state(&self) -> bool {
+        self.variance.is_some() || self.covariance.is_some()
+    }
+
+    /// Lets `advance` write θ after each of at most `most` samples of n numbers, if θ is kept, and
+    /// keeps those of as many samples as it says it took.
+    pub fn with_thetas(
+        &mut self,
+        (most, n): (usize, usize),
+        advance: impl FnOnce(&mut [T]) -> usize,
+    ) -> usize {
+        let Some(theta) = &mut self.theta else { return advance(&mut []) };
+        let before = theta.len();
+        theta.resize(before + most * n, T::ZERO);
+        let taken = advance(&mut theta[before..]);
+        theta.truncate(before + taken * n);
+        taken
+    }
+
     /// The state after a sample.
     #[inline(always)]
     pub fn note_state(&mut self, estimator: &AnyEstimator<T>) {
