@@ -63,7 +63,11 @@ pub fn run<T: Number>(
         None => RecordNoise::Unit,
         Some(gamma) => read_noise(gamma.as_array().shape(), &elements, samples, p)?,
     };
-    py.detach(|| update_all(estimator, &phi, &y, &noise, skip, &mut outputs))?;
+    outputs.prepare(estimator);
+    let outcome = py.detach(|| update_all(estimator, &phi, &y, &noise, skip, &mut outputs));
+    estimator.keep_innovations(false);
+    estimator.keep_prior(false);
+    outcome?;
     outputs.finish(py, sizes)
 }
 
@@ -144,10 +148,12 @@ fn samples<T: Number>(
         let (phi, y) = (&phi[k * p * n..(k + 1) * p * n], &y[k * p * m..(k + 1) * p * m]);
         if skip_missing && (missing(phi) || missing(y)) {
             outputs.note_missing(p * m);
+            outputs.note_prior(estimator, true);
         } else {
             let update =
                 estimator.update_weighted(phi, y, noise.at(k, p)).map_err(|error| (k, error))?;
             outputs.note(&update);
+            outputs.note_prior(estimator, false);
         }
         outputs.note_state(estimator);
         k += 1;
