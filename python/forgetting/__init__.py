@@ -12,6 +12,7 @@ only what it should.
 
 from . import registry
 from ._core import (
+    GATE,
     RLS,
     SKIPPED,
     Evidence,
@@ -20,11 +21,12 @@ from ._core import (
     Run,
     Update,
     __version__,
+    gates,
     rates,
     rules,
     weightings,
 )
-from .choices import Rate, Rule, Weighting, rate, rule, weighting
+from .choices import Gate, Rate, Rule, Weighting, gate, rate, rule, weighting
 from .health import Health
 from .meter import ExcitationMeter
 from .models import ARX
@@ -32,10 +34,12 @@ from .registry import *  # noqa: F403 (the classes of the registries)
 
 __all__ = [
     "ARX",
+    "GATE",
     "RLS",
     "SKIPPED",
     "Evidence",
     "ExcitationMeter",
+    "Gate",
     "Health",
     "InvalidInput",
     "NumericalRange",
@@ -45,6 +49,8 @@ __all__ = [
     "Update",
     "Weighting",
     "__version__",
+    "gate",
+    "gates",
     "rate",
     "rates",
     "rule",

@@ -71,12 +71,22 @@ impl<M: Memory> Factor<M> {
         factor
     }
 
-    /// Whether D is within range and U finite: whether this is a positive definite P.
+    /// Whether D and P are within range: whether this is a positive definite P. O(n²).
     pub fn is_sound(&self) -> bool {
         let in_range = |d: &M::Real| *d >= M::Real::FLOOR && *d <= M::Real::CEILING;
+        let n = M::Real::from_f64(self.parameters() as f64);
         self.diagonal.as_ref().iter().all(in_range)
-            && self.columns.as_ref().iter().all(|u| u.is_finite())
+            && self.trace() <= n * M::Real::CEILING
             && self.trace_bound.is_finite()
+    }
+
+    /// Makes the bound of P's trace one, if it is far from it.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn check_bound(&mut self) {
+        // half of it, for rounding
+        if !(self.trace_bound >= M::Real::from_f64(0.5) * self.trace()) {
+            self.tighten();
+        }
     }
 
     /// n

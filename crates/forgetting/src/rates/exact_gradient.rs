@@ -28,7 +28,7 @@ use super::limits::{largest, SMALLEST};
 use super::{AboutRate, Evidence, Limits, Rate};
 use crate::factor::kernel::{add_scaled, dot};
 use crate::parameter::{Parameter, Range, Value, Values};
-use crate::state::{State, Visitor};
+use crate::state::{is_factor, is_finite, State, Visitor};
 use crate::{Error, Factor, Memory, Real, Sample};
 
 const LARGEST: Parameter = largest(0.9999, Range::FRACTION);
@@ -69,6 +69,10 @@ impl<M: Memory> State<M::Real> for Sensitivity<M> {
         visitor.reals(self.covariance.as_mut());
         visitor.reals(self.theta.as_mut());
         visitor.reals(core::slice::from_mut(&mut self.next));
+    }
+
+    fn is_sound(&self) -> bool {
+        is_finite(self) && is_factor(self.next)
     }
 }
 

@@ -30,8 +30,8 @@
 use super::{About, Claim, Forgetting, Forgotten, Step};
 use crate::factor::kernel::{add_scaled, bierman, dot, length, place, set_identity};
 use crate::parameter::{Kind, Parameter, Range, Value, Values};
-use crate::state::{State, Visitor};
-use crate::{Error, Factor, Memory, Real};
+use crate::state::{is_finite, State, Visitor};
+use crate::{Error, Factor, Memory, Real, Sample};
 
 const FACTORS: Parameter = Parameter::elements(
     "factors",
@@ -135,6 +135,32 @@ impl<M: Memory> Multiple<M> {
             Some((*start - size, size, factor))
         })
     }
+
+    /// Takes the blocks of the first P.
+    fn start_once(&self, state: &mut Blocks<M>, factor: &Factor<M>) {
+        if state.started == 0 {
+            let mut offset = 0;
+            for (start, size, _) in self.blocks() {
+                state.start_block(factor, start, size, offset);
+                offset += length::<M::Real>(size);
+            }
+            state.started = 1;
+        }
+    }
+}
+
+/// R_bb ← R_bb + φ̄_bᵀφ̄_b for the block of parameters from `start` on.
+#[inline]
+fn measure_block<M: Memory>(
+    (columns, diagonal): (&mut [M::Real], &mut [M::Real]),
+    start: usize,
+    sample: &Sample<'_, M>,
+    gain: &mut [M::Real],
+) {
+    for i in 0..sample.rows() {
+        let row = &sample.row(i)[start..start + diagonal.len()];
+        bierman(columns, diagonal, row, gain);
+    }
 }
 
 fn refuse(parameter: &'static str, index: usize, value: f64, allowed: &'static str) -> Error {
@@ -213,19 +239,23 @@ impl<M: Memory> Forgetting<M> for Multiple<M> {
         Blocks { columns, diagonal, started: 0, work: memory.square() }
     }
 
+    fn follow(&self, state: &mut Blocks<M>, step: Step<'_, '_, M>) {
+        self.start_once(state, step.factor);
+        let mut offset = 0;
+        for (start, size, _) in self.blocks() {
+            let columns = &mut state.columns.as_mut()[offset..offset + length::<M::Real>(size)];
+            let diagonal = &mut state.diagonal.as_mut()[start..start + size];
+            measure_block((columns, diagonal), start, step.sample, step.work.gain.as_mut());
+            offset += length::<M::Real>(size);
+        }
+    }
+
     #[inline]
     fn forget(&self, state: &mut Blocks<M>, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         let least = self.blocks().fold(M::Real::ONE, |least, (_, _, lambda)| least.min(lambda));
         // R_bb⁻¹ ≤ P_bb, so that P̄ is at most P/λ of the smallest λ
         step.factor.reserve(M::Real::ONE / least, M::Real::ZERO)?;
-        if state.started == 0 {
-            let mut offset = 0;
-            for (start, size, _) in self.blocks() {
-                state.start_block(step.factor, start, size, offset);
-                offset += length::<M::Real>(size);
-            }
-            state.started = 1;
-        }
+        self.start_once(state, step.factor);
         step.factor.clear_columns();
         let mut offset = 0;
         for (start, size, lambda) in self.blocks() {
@@ -233,11 +263,8 @@ impl<M: Memory> Forgetting<M> for Multiple<M> {
             let diagonal = &mut state.diagonal.as_mut()[start..start + size];
             diagonal.iter_mut().for_each(|d| *d = (*d / lambda).min(M::Real::CEILING));
             step.factor.put_block(start, columns, diagonal);
-            for i in 0..step.sample.rows() {
-                let row = &step.sample.row(i)[start..start + size];
-                bierman(columns, diagonal, row, step.work.gain.as_mut());
-            }
-            offset += columns.len();
+            measure_block((columns, diagonal), start, step.sample, step.work.gain.as_mut());
+            offset += length::<M::Real>(size);
         }
         Ok(Forgotten::rank(step.factor.parameters()))
     }
@@ -248,6 +275,11 @@ impl<M: Memory> State<M::Real> for Blocks<M> {
         visitor.reals(self.columns.as_mut());
         visitor.reals(self.diagonal.as_mut());
         visitor.whole(&mut self.started);
+    }
+
+    fn is_sound(&self) -> bool {
+        let in_range = |d: &M::Real| *d >= M::Real::FLOOR && *d <= M::Real::CEILING;
+        is_finite(self) && (self.started == 0 || self.diagonal.as_ref().iter().all(in_range))
     }
 }
 
