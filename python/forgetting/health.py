@@ -102,15 +102,14 @@ class Health:
 
 def health_of(estimator: RLS, exact: bool = False) -> Health:
     """The health of `estimator`; see `RLS.health`."""
-    unit, diagonal = (np.asarray(part, dtype=float) for part in estimator.factor())
-    if exact:
-        values = np.linalg.svd(unit * np.sqrt(diagonal), compute_uv=False) ** 2
-    else:
-        values = np.sort(diagonal)[::-1]
-    largest, smallest = float(values[0]), float(values[-1])
-    eigenvalues = (largest, smallest, largest / smallest)
+    largest, smallest = estimator._extremes()
     edge = _EDGE[estimator.dtype]
-    saturated = float(diagonal.max()) > edge or float(diagonal.min()) < 1 / edge
+    saturated = largest > edge or smallest < 1 / edge
+    if exact:
+        unit, diagonal = (np.asarray(part, dtype=float) for part in estimator.factor())
+        values = np.linalg.svd(unit * np.sqrt(diagonal), compute_uv=False) ** 2
+        largest, smallest = float(values[0]), float(values[-1])
+    eigenvalues = (largest, smallest, largest / smallest)
     watched = estimator.watched()
     if watched is None:
         return Health("saturated" if saturated else "ok", *eigenvalues, exact)

@@ -52,24 +52,21 @@ def test_a_covariance_that_overflows_is_told_sample_by_sample():
         windup(Record.from_arrays(phi, np.full_like(path, np.nan), prior_covariance=prior))
 
 
-def test_a_resting_battery_winds_up_exponential_forgetting_only(battery):
-    """While the current rests nothing is said about how the voltage follows it."""
-    voltage, current = battery
-    phi = np.stack([voltage[:-1], current[1:], current[:-1]], axis=1)
-    names = ["V1", "I0", "I1"]
+def test_a_night_winds_up_exponential_forgetting_only(solar):
+    """While the sun is down nothing is said about how the power follows it."""
+    from forgetting.demo.solar import MEMORY, NIGHT
+
+    phi, power = solar
     verdicts = {}
-    for rule in (fg.Exponential(0.95), fg.Subspace(0.95, threshold=1e-2)):
-        est = fg.RLS(3, rule=rule, initial_covariance=100.0)
-        run = est.run(phi, voltage[1:], outputs=OUTPUTS)
-        verdicts[rule.name] = certify(run, phi, initial_covariance=100.0, names=names)
+    for rule in (fg.Exponential(MEMORY), fg.Subspace(MEMORY, threshold=NIGHT)):
+        est = fg.RLS(2, rule=rule, initial_covariance=100.0)
+        run = est.run(phi, power, outputs=OUTPUTS)
+        verdicts[rule.name] = certify(run, phi, initial_covariance=100.0, names=["gain", "slope"])
     wound = verdicts["exponential"]
-    assert wound.windup_occurred and not verdicts["subspace"].windup_occurred
-    # The current rests at -0.04 A from sample 9 on: ln 10/-ln 0.95 = 45 samples later P has
-    # grown tenfold, before the first load.
-    load = int(np.argmax(np.abs(current) > 0.1))
-    assert 45 <= wound.windup.sample <= 9 + 45 + 1 < load
-    share = np.linalg.norm(wound.windup.direction[1:])
-    assert share > 0.99 and "V1" not in wound.verdict
+    assert wound.windup_occurred and wound.windup.persists
+    assert not verdicts["subspace"].windup_occurred
+    # the record begins at midnight: P grows tenfold in ln 10/-ln 0.7 = 6.5 samples
+    assert wound.windup.sample == 6
 
 
 def test_names_are_used_and_counted():

@@ -60,12 +60,20 @@ def test_constants_on_random_records(rows, window):
 
 
 def test_constants_on_measured_records(measured):
-    phi = measured[:400]
+    phi = measured[0][:400]
     scale = np.abs(phi).max(axis=0)
     record = dense.simulate(
         dense.exponential(0.98), (phi / scale)[None, :, None, :], None, np.eye(phi.shape[1])
     ).record()
     _compare(record, [*record.before, record.after[-1]], 100)
+
+
+@pytest.mark.parametrize("rule", ["exponential", "subspace"])
+def test_constants_on_the_papers_records(of_a_paper, rule):
+    phi = of_a_paper[:200]
+    made = {"exponential": dense.exponential(0.98), "subspace": dense.subspace(0.98, 1e-4)}[rule]
+    record = dense.simulate(made, phi[None], None, np.eye(phi.shape[-1])).record()
+    _compare(record, [*record.before, record.after[-1]], 50)
 
 
 def test_observed_decrease_equals_the_products_written_out():

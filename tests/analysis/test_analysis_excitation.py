@@ -57,9 +57,16 @@ def test_windows_longer_than_a_chunk_and_short_ones_agree_with_brute_force():
 
 
 def test_measured_records(measured):
-    window = 200
-    found = excitation(measured, window)
-    smallest, largest, single = _one_by_one(measured, window)
+    _agrees(measured[0], 100)
+
+
+def test_the_papers_records(of_a_paper):
+    _agrees(of_a_paper, 50)
+
+
+def _agrees(phi, window):
+    found = excitation(phi, window)
+    smallest, largest, single = _one_by_one(phi, window)
     assert found.alpha == pytest.approx(smallest.min(), abs=1e-13 * largest.max())
     assert found.beta == pytest.approx(largest.max(), rel=1e-12)
     assert found.sample_bound == pytest.approx(single, rel=1e-12)

@@ -7,7 +7,7 @@ use crate::outputs::{Run, DEFAULT_OUTPUTS};
 use crate::update::Update;
 use crate::{record, results, sample};
 use forgetting::saved::{number_type, AnyEstimator};
-use forgetting::Memory;
+use forgetting::{Memory, Real};
 use forgetting_cpu::{level, Fused, Level};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyType};
@@ -181,6 +181,12 @@ impl Rls {
     /// P = U @ diag(D) @ U.T.
     fn factor<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         either!(&self.inner, e => results::factor(py, e))
+    }
+
+    /// The largest and the smallest element of D, for `health`: O(n).
+    #[pyo3(name = "_extremes")]
+    fn extremes(&self) -> (f64, f64) {
+        either!(&self.inner, e => (e.factor().largest().to_f64(), e.factor().smallest().to_f64()))
     }
 
     /// How far the estimate can be trusted now.

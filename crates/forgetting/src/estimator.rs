@@ -7,18 +7,18 @@
 //! ```
 
 use crate::between::Between;
-use crate::factor::kernel::{dot, Told};
+use crate::factor::kernel::Told;
 use crate::factor::Form;
 use crate::gates::{Answer, AnyGate, Gate, Open};
 use crate::intake::{Intake, Noise};
-use crate::monitor::{Health, Monitor};
+use crate::monitor::{Monitor, Seen};
 use crate::rates::Rate;
 use crate::rules::{Forgetting, Forgotten, Skip};
-use crate::state::{State, Visitor, MOST_SAMPLES};
 use crate::update::{Update, Whitened};
 use crate::weighting::Weighting;
 use crate::{Error, Factor, Memory, Prior, Real, Work};
 
+mod held;
 mod steps;
 
 /// Recursive least squares with the forgetting rule `F`, the rate `R` and the weighting `W`.
@@ -152,47 +152,6 @@ where
         self.monitor = Some(Monitor::new(&self.factor, self.rule.is_bounded()));
     }
 
-    /// What the watch has seen, if there is one.
-    pub fn health(&self) -> Option<Health<'_, M::Real>> {
-        self.monitor.as_ref().map(Monitor::health)
-    }
-
-    /// Keeps, from now on or no longer, P̄ of the last sample: [`Estimator::prior_factor`].
-    /// O(n²) a sample.
-    pub fn keep_prior(&mut self, keep: bool) {
-        self.between.keep_prior(keep, &self.factor);
-    }
-
-    /// Keeps, from now on or no longer, what [`Update::whiten`] needs for samples of several rows:
-    /// O(p n²/2 + p² n) a sample. For one row it costs nothing and need not be asked for.
-    pub fn keep_innovations(&mut self, keep: bool) {
-        self.between.keep_innovations(keep, self.prior.memory());
-    }
-
-    /// P̄ of the last sample, after forgetting and before the data, if it is kept.
-    pub fn prior_factor(&self) -> Option<&Factor<M>> {
-        self.between.prior()
-    }
-
-    /// φθ for p x n numbers `phi`, row by row; writes p x m numbers to `prediction`.
-    ///
-    /// # Errors
-    /// [`Error::Length`] names what does not fit.
-    pub fn predict(&self, phi: &[M::Real], prediction: &mut [M::Real]) -> Result<(), Error> {
-        let memory = self.prior.memory();
-        let (n, m) = (memory.parameters(), memory.targets());
-        if n == 0 || phi.len() % n != 0 {
-            return Err(Error::Length { parameter: "phi", length: phi.len(), expected: n });
-        }
-        Error::check_length("prediction", prediction.len(), phi.len() / n * m)?;
-        for (row, predicted) in phi.chunks_exact(n).zip(prediction.chunks_exact_mut(m)) {
-            for (theta, y) in self.theta.as_ref().chunks_exact(n).zip(predicted) {
-                *y = dot(row, theta);
-            }
-        }
-        Ok(())
-    }
-
     /// Takes the sample of p x n numbers `phi` and p x m numbers `y`, with Γ = I.
     ///
     /// # Errors
@@ -229,8 +188,8 @@ where
     /// Takes samples of n numbers `phi` and one number `y` each, one after the other and all in
     /// one go; returns how many it took, as many as `told` has room for at most.
     ///
-    /// It takes none where it has more to do than to forget, measure and correct (a watch, a
-    /// variable rate, …), and stops before a sample that it cannot use: [`Estimator::update`]
+    /// It takes none where it has more to do than to forget, measure and correct (a variable rate,
+    /// a gate, …), and stops before a sample that it cannot use: [`Estimator::update`]
     /// takes the next one or says what is wrong with it. The bits are those of as many calls of
     /// that. `thetas` has room for n numbers a sample, θ after it, or is empty.
     #[inline]
@@ -241,12 +200,32 @@ where
         told: &mut [Told<M::Real>],
         thetas: &mut [M::Real],
     ) -> usize {
-        let watched = self.monitor.is_some() || self.between.keeps_prior();
-        let Some(steady) = self.steady.filter(|_| !watched) else { return 0 };
+        let Some(steady) = self.steady.filter(|_| !self.between.keeps_prior()) else { return 0 };
+        // the watch looks at P now and then
+        let room = self.monitor.as_ref().map_or(told.len(), |monitor| monitor.room(told.len()));
+        let told = &mut told[..room];
         let (scratch, theta) = (self.work.scratch.as_mut(), self.theta.as_mut());
         let taken = self.factor.advance(steady.form, (phi, y), scratch, theta, (told, thetas));
         self.samples += told[..taken].iter().filter(|told| told.used).count() as u64;
+        self.show(steady.lambda, phi, &mut told[..taken]);
         taken
+    }
+
+    /// Shows samples to the watch, and notes what it says of each.
+    #[inline]
+    fn show(&mut self, lambda: M::Real, phi: &[M::Real], told: &mut [Told<M::Real>]) {
+        let Some(monitor) = &mut self.monitor else { return };
+        for (phi, told) in phi.chunks_exact(self.factor.parameters()).zip(told) {
+            let seen = Seen {
+                regressors: phi,
+                errors: core::slice::from_ref(&told.error),
+                squared_error: told.error * told.error,
+                leverage: told.leverage,
+                forgetting_factor: lambda,
+            };
+            monitor.watch(&self.factor, told.used.then_some(seen));
+            told.windup = monitor.windup();
+        }
     }
 
     /// What a sample told that [`Estimator::advance`] took.
@@ -269,87 +248,11 @@ where
             rank: forgotten.rank,
             skipped: (!told.used).then_some(Skip::DeadZone),
             gate: Answer::Update,
-            windup: told.largest > self.windup_limit,
+            windup: match &self.monitor {
+                Some(_) => told.windup,
+                None => told.largest > self.windup_limit,
+            },
             whitened: Whitened::Row { errors: error, noise: M::Real::ONE },
-        }
-    }
-
-    /// θ, m x n numbers, one target after the other.
-    #[inline]
-    pub fn theta(&self) -> &[M::Real] {
-        self.theta.as_ref()
-    }
-
-    /// P, factored.
-    #[inline]
-    pub fn factor(&self) -> &Factor<M> {
-        &self.factor
-    }
-
-    /// Samples used since the start; skipped ones do not count.
-    pub fn samples(&self) -> u64 {
-        self.samples
-    }
-
-    /// The forgetting rule.
-    pub fn rule(&self) -> &F {
-        &self.rule
-    }
-
-    /// The design of the forgetting factor.
-    pub fn rate(&self) -> &R {
-        &self.rate
-    }
-
-    /// What the design of the forgetting factor remembers.
-    pub fn rate_state(&self) -> &R::State {
-        &self.rate_state
-    }
-
-    /// The weighting of samples.
-    pub fn weighting(&self) -> &W {
-        &self.weighting
-    }
-
-    /// What decides whether a sample is used.
-    pub fn gate(&self) -> &AnyGate<M> {
-        &self.gate
-    }
-
-    /// θ₀ and P₀.
-    pub fn prior(&self) -> &Prior<M> {
-        &self.prior
-    }
-
-    /// Whether θ is finite, P positive definite, and what the rule, the rate and the watch
-    /// remember is what they can: as after every sample.
-    pub fn is_sound(&self) -> bool {
-        self.theta.as_ref().iter().all(|x| x.is_finite())
-            && self.factor.is_sound()
-            && self.rule_state.is_sound()
-            && self.rate_state.is_sound()
-            && self.samples <= MOST_SAMPLES
-            && self.monitor.as_ref().is_none_or(State::is_sound)
-    }
-
-    /// [`Estimator::is_sound`] for a state that was read, of which the bound of P's trace may be
-    /// none.
-    #[cfg(feature = "alloc")]
-    pub(crate) fn check_read(&mut self) -> bool {
-        let sound = self.is_sound();
-        self.factor.check_bound();
-        sound
-    }
-
-    /// Shows every number of the state to `visitor`.
-    pub fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
-        self.factor.visit(visitor);
-        visitor.reals(self.theta.as_mut());
-        self.rule_state.visit(visitor);
-        self.rate_state.visit(visitor);
-        visitor.whole(&mut self.samples);
-        if let Some(monitor) = &mut self.monitor {
-            monitor.visit(visitor);
         }
     }
 }

@@ -16,7 +16,7 @@
 
 use crate::factor::kernel::dot;
 use crate::state::{is_finite, State, Visitor};
-use crate::{Factor, Memory, Real, Sample};
+use crate::{Factor, Memory, Real};
 
 /// Growth of the variance of a silent direction that counts as windup.
 pub const FACTOR: f64 = 10.0;
@@ -51,15 +51,17 @@ pub struct Monitor<M: Memory> {
 
 /// What the watch is shown of a sample that was used.
 #[derive(Clone, Copy, Debug)]
-pub struct Seen<'a, 'b, M: Memory> {
-    /// the whitened sample
-    pub sample: &'a Sample<'b, M>,
+pub struct Seen<'a, T> {
+    /// φ̄, n numbers a row
+    pub regressors: &'a [T],
+    /// ē, one number a row and target
+    pub errors: &'a [T],
     /// ‖ē‖² over rows and targets
-    pub squared_error: M::Real,
+    pub squared_error: T,
     /// tr φ̄P̄φ̄ᵀ
-    pub leverage: M::Real,
+    pub leverage: T,
     /// the λ used
-    pub forgetting_factor: M::Real,
+    pub forgetting_factor: T,
 }
 
 /// What the watch has seen.
@@ -127,6 +129,19 @@ impl<M: Memory> Monitor<M> {
             && self.variance > M::Real::from_f64(FACTOR) * self.reference
     }
 
+    /// How many of `samples` samples may pass before it looks at P again, which it does after the
+    /// last of them.
+    #[inline]
+    pub fn room(&self, samples: usize) -> usize {
+        let length = self.length.to_f64();
+        let left = libm::ceil(length) - self.in_block as f64;
+        if left >= samples as f64 {
+            samples
+        } else {
+            (left as usize).max(1)
+        }
+    }
+
     #[inline]
     fn is_informed(&self) -> bool {
         let told = (self.information[0] + self.information[1]) * self.variance;
@@ -135,12 +150,12 @@ impl<M: Memory> Monitor<M> {
 
     /// Takes note of a sample, none if it was left out, and of P after it.
     #[inline]
-    pub fn watch(&mut self, factor: &Factor<M>, seen: Option<Seen<'_, '_, M>>) {
+    pub fn watch(&mut self, factor: &Factor<M>, seen: Option<Seen<'_, M::Real>>) {
         self.samples += 1;
         self.silence.as_mut().iter_mut().for_each(|silence| *silence += M::Real::ONE);
         if let Some(seen) = seen {
-            self.note_excitation(seen.sample);
-            self.note_innovation(&seen);
+            let rows = self.note_excitation(seen.regressors);
+            self.note_innovation(&seen, rows);
         }
         self.in_block += 1;
         if M::Real::from_f64(self.in_block as f64) >= self.length {
@@ -148,31 +163,43 @@ impl<M: Memory> Monitor<M> {
         }
     }
 
+    /// Returns the number of rows.
     #[inline]
-    fn note_excitation(&mut self, sample: &Sample<'_, M>) {
-        let share = M::Real::from_f64(SHARE);
-        for i in 0..sample.rows() {
-            let along = dot(sample.row(i), self.direction.as_ref());
+    fn note_excitation(&mut self, regressors: &[M::Real]) -> usize {
+        let (direction, variances) = (self.direction.as_ref(), self.variances.as_ref());
+        let (share, mut rows) = (M::Real::from_f64(SHARE), 0);
+        for row in regressors.chunks_exact(direction.len()) {
+            let along = dot(row, direction);
             self.information[0] += along * along;
-            let parameters = self.silence.as_mut().iter_mut().zip(self.variances.as_ref());
-            for (&f, (silence, &variance)) in sample.row(i).iter().zip(parameters) {
+            let parameters = self.silence.as_mut().iter_mut().zip(variances);
+            for (&f, (silence, &variance)) in row.iter().zip(parameters) {
                 let excited = f * f * (variance * self.length) >= share;
                 *silence = if excited { M::Real::ZERO } else { *silence };
             }
+            rows += 1;
         }
+        rows
     }
 
     #[inline]
-    fn note_innovation(&mut self, seen: &Seen<'_, '_, M>) {
-        let Seen { sample, squared_error, leverage, forgetting_factor: lambda } = *seen;
-        let spread = M::Real::ONE + leverage / M::Real::from_f64(sample.rows() as f64);
-        let measurements = M::Real::from_f64(sample.errors().len() as f64);
+    fn note_innovation(&mut self, seen: &Seen<'_, M::Real>, rows: usize) {
+        let Seen { errors, squared_error, leverage, forgetting_factor: lambda, .. } = *seen;
+        let average = |x: M::Real, count: usize| {
+            if count == 1 {
+                x
+            } else {
+                x / M::Real::from_f64(count as f64)
+            }
+        };
+        let spread = M::Real::ONE + average(leverage, rows);
         if spread > M::Real::from_f64(2.0) {
             return; // more uncertain of the parameters than of the noise: it tells nothing of noise
         }
-        let innovation = sample.errors()[0] / spread.sqrt();
+        let inverse = M::Real::ONE / spread;
+        let innovation = errors[0] * inverse.sqrt();
+        let square = average(squared_error, errors.len()) * inverse;
         self.weight = lambda.mul_add(self.weight, M::Real::ONE);
-        self.squares = lambda.mul_add(self.squares, squared_error / (measurements * spread));
+        self.squares = lambda.mul_add(self.squares, square);
         self.products = lambda.mul_add(self.products, innovation * self.previous);
         self.previous = innovation;
     }

@@ -58,12 +58,17 @@ def cycling(folder: Path) -> Outcome:
     return Outcome([comparison, *reports], TITLE, header, rows)
 
 
-def identified() -> tuple[dict[str, Result], float]:
-    """Run the three rules over the ride; also returns its mean altitude in m."""
+def ride_record() -> tuple[Record, float]:
+    """Read the columns of the model from the installed record; also its mean altitude in m."""
     track = read_tcx(locate("sweat", "0.25.0", "sweat/examples/data/activity_4078723797.tcx"))
     altitude = float(np.nanmean(track["altitude"]))
     record = read(energy_balance(track), time="time")
-    record = Record(record.frame, record.clock, CITATION)
+    return Record(record.frame, record.clock, CITATION), altitude
+
+
+def identified() -> tuple[dict[str, Result], float]:
+    """Run the three rules over the ride; also returns its mean altitude in m."""
+    record, altitude = ride_record()
     rules = {
         "none": fg.rule("none"),
         "exponential": fg.rule("exponential", forgetting_factor=MEMORY),

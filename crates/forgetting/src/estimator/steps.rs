@@ -65,8 +65,13 @@ where
             self.samples += 1;
         }
         if let Some(monitor) = &mut self.monitor {
-            let squared_error = known.used_error();
-            let seen = Seen { sample: &sample, squared_error, leverage, forgetting_factor: lambda };
+            let seen = Seen {
+                regressors: sample.regressors(),
+                errors: sample.errors(),
+                squared_error: known.used_error(),
+                leverage,
+                forgetting_factor: lambda,
+            };
             monitor.watch(&self.factor, skipped.is_none().then_some(seen));
         }
         let noise = sample.scaled() * sample.scaled();

@@ -2,6 +2,7 @@
 
 use crate::record::{record, Datum};
 use crate::subjects::{subjects, Subject};
+use forgetting::factor::kernel::Told;
 use forgetting::gates::Answer;
 use forgetting::gates::{AnyGate, DeadZone, MinimumInformation};
 use forgetting::weighting::{AnyWeighting, Huber};
@@ -112,4 +113,44 @@ fn several_rows_must_be_asked_for() {
     let mut estimator = subject.estimator::<f64>((2, 2, 1), 1.0, 1.0).unwrap();
     let update = estimator.update(&[1.0, 0.0, 0.0, 1.0], &[1.0, 2.0]).unwrap();
     assert!(matches!(update.whiten(&mut [0.0; 2]), Err(Error::Unsupported { .. })));
+}
+
+/// With P̄ kept, every step is taken one by one; without, some are one pass, for many samples in one
+/// go. The watch must see the same.
+#[test]
+fn the_watch_sees_the_same_whichever_way_the_sample_takes() {
+    let sizes = (3, 1, 1);
+    let data = record::<f64>(sizes, 240);
+    let phi: Vec<f64> = data.iter().flat_map(|datum| datum.phi.clone()).collect();
+    let y: Vec<f64> = data.iter().flat_map(|datum| datum.y.clone()).collect();
+    let mut many = 0;
+    for subject in subjects() {
+        let mut quick = subject.estimator::<f64>(sizes, 0.8, 10.0).unwrap();
+        quick.watch();
+        let (mut slow, mut at_once) = (quick.clone(), quick.clone());
+        slow.keep_prior(true);
+        let (mut told, mut k) = (vec![Told::default(); data.len()], 0);
+        while k < data.len() {
+            let taken = at_once.advance(&phi[3 * k..], &y[k..], &mut told[k..], &mut []);
+            many += usize::from(taken > 1);
+            if taken == 0 {
+                at_once.update(&phi[3 * k..3 * k + 3], &y[k..=k]).unwrap();
+            }
+            k += taken.max(1);
+        }
+        for (k, Datum { phi, y, .. }) in data.iter().enumerate() {
+            let update = quick.update(phi, y).unwrap();
+            let told_one = (update.leverage.to_bits(), update.windup, update.skipped);
+            let other = slow.update(phi, y).unwrap();
+            assert_eq!(told_one, (other.leverage.to_bits(), other.windup, other.skipped));
+            if told[k].used {
+                let other = at_once.update_of(&told[k]);
+                assert_eq!(told_one, (other.leverage.to_bits(), other.windup, other.skipped));
+            }
+        }
+        let bytes = slow.to_bytes().unwrap();
+        assert!(quick.to_bytes().unwrap() == bytes, "{subject:?}");
+        assert!(at_once.to_bytes().unwrap() == bytes, "{subject:?}");
+    }
+    assert!(many > 50, "{many} goes of more than one sample");
 }

@@ -95,7 +95,7 @@ fn few<T: Real, A: One<T>, const N: usize>(task: &mut Steps<'_, T>) -> Option<us
                 now[i] = step.mul_add(gain.k[i], now[i]);
             }
             let (leverage, largest) = (gain.s.get(), gain.largest.get());
-            *told = Told { error, leverage, largest, forgot, used: true };
+            *told = Told { error, leverage, largest, forgot, used: true, windup: false };
         }
         if let Some(after) = after.next() {
             *after = now.map(One::get);
@@ -115,7 +115,7 @@ fn left_out<T: Real, A: One<T>, const N: usize>(
     f: &[A; N],
 ) -> Told<T> {
     let (leverage, d) = (small.leverage(f).get(), small.d.map(One::get));
-    Told { error, leverage, largest: largest(&d), forgot: false, used: false }
+    Told { error, leverage, largest: largest(&d), forgot: false, used: false, windup: false }
 }
 
 /// For more than ten.
@@ -158,7 +158,7 @@ fn single<T: Real, V: Vector<T>, const GROUP: usize>(
     if form.leaves_out(squares) {
         let leverage = leverage_of::<T, V, GROUP>(place.columns, place.diagonal, f);
         let largest = largest(place.diagonal);
-        told[at] = Told { error, leverage, largest, forgot: false, used: false };
+        told[at] = Told { error, leverage, largest, forgot: false, used: false, windup: false };
     } else {
         let measured = measure_many::<T, V, GROUP>(place, *form, f, squares)?;
         add_scaled_by::<T, V>(theta, error * measured.inverse_variance, &place.scratch[..n]);

@@ -16,6 +16,8 @@ pub struct Told<T> {
     pub forgot: bool,
     /// whether it was learned from; if not, it was in the dead zone
     pub used: bool,
+    /// whether the watch, if there is one, says that P has wound up
+    pub(crate) windup: bool,
 }
 
 impl<T: Real> Told<T> {
@@ -23,6 +25,6 @@ impl<T: Real> Told<T> {
     #[inline(always)]
     pub(crate) fn used(error: T, measured: &Measured<T>) -> Self {
         let &Measured { leverage, largest, forgot, .. } = measured;
-        Self { error, leverage, largest, forgot, used: true }
+        Self { error, leverage, largest, forgot, used: true, windup: false }
     }
 }
