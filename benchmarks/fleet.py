@@ -14,6 +14,7 @@ import json
 import os
 import subprocess
 import sys
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -95,7 +96,7 @@ def measured(count: int, dtype: str, threads: int) -> dict[str, Any]:
         rates[0] = max(rates[0], limits.bandwidth(where, threads))
 
     # the same regressors for ever would wind exponential forgetting up
-    side = Side("fleet", update, fleet.reset, each=count * calls)
+    side = Side("fleet", update, fleet.reset, each=count * calls, clock=time.perf_counter)
     for _ in range(2):  # in turns with the limit
         bandwidth()
         race([side], SECONDS / 2)

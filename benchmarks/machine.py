@@ -58,6 +58,6 @@ def report(plan: Plan, ledger: Ledger) -> Iterator[str]:
     yield f"- Python {platform.python_version()}, " + ", ".join(map(version, PACKAGES))
     yield "- " + ", ".join(compiled())
     yield (
-        f"- {THREADS} thread each, sides in turns, least of all turns; load average at the start"
-        f" {load} (others' work slows all sides: read ratios)"
+        f"- {THREADS} thread each, sides in turns, the least processor time of all turns; load"
+        f" average at the start {load} (others' work slows all sides: read ratios)"
     )

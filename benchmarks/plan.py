@@ -17,7 +17,7 @@ class Plan:
     @property
     def seconds(self) -> float:
         """Of one race."""
-        return 0.8 if self.quick else 4.0
+        return 1.5 if self.quick else 4.0
 
     def of(self, *sizes: int) -> list[int]:
         """Those of `sizes` that were asked for."""

@@ -1,4 +1,8 @@
-"""Times that can be compared: the sides take turns, and the shortest turn of each counts."""
+"""Times that can be compared: the sides take turns, and the shortest turn of each counts.
+
+Time is the processor's, of the thread that calls: what others get of the processor meanwhile does
+not count. What they do to caches and clock rate does, and hits all sides alike.
+"""
 
 from __future__ import annotations
 
@@ -10,8 +14,8 @@ from typing import Any
 
 import numpy as np
 
-# a rival this many times slower than the best of its group is out, after so many turns
-HOPELESS, TRIAL_TURNS = 1.3, 3
+# turns: how many times slower than the best of its group a rival may still be, or it is out
+OUT = {3: 3.0, 12: 1.3}
 # a side this many times slower than the fastest turns more seldom, to leave time to the others
 SLOW = 5
 
@@ -25,15 +29,16 @@ class Side:
     prepare: Callable[[], Any] = lambda: None
     group: str = ""  # rivals of which only the best counts
     each: int = 1  # samples or calls in one turn
+    clock: Callable[[], float] = time.thread_time
     least: float = float("inf")  # seconds of a turn
     turns: int = field(default=0)
 
     def turn(self) -> None:
         """Time one turn."""
         self.prepare()
-        start = time.perf_counter()
+        start = self.clock()
         self.work()
-        self.least = min(self.least, time.perf_counter() - start)
+        self.least = min(self.least, self.clock() - start)
         self.turns += 1
 
     @property
@@ -42,27 +47,25 @@ class Side:
         return self.least / self.each * 1e9
 
 
-def race(sides: Iterable[Side], seconds: float, least_rounds: int = 5) -> None:
+def race(sides: Iterable[Side], seconds: float, least_rounds: int = 8) -> None:
     """Let the sides take turns (A B C A B C ...) for `seconds`, so that drift hits all alike."""
-    running = list(sides)
-    for _ in range(TRIAL_TURNS):
-        for side in running:
-            side.turn()
-    running = [side for side in running if not hopeless(side, running)]
-    fastest = min(side.least for side in running)
+    running, fastest = list(sides), float("inf")
     end = time.perf_counter() + seconds
     for turn in count():
         for side in running:
-            if turn % max(1, round(side.least / (SLOW * fastest))) == 0:
+            if side.turns == 0 or turn % max(1, round(side.least / (SLOW * fastest))) == 0:
                 side.turn()
+        if turn in OUT:
+            running = [side for side in running if has_hope(side, running, OUT[turn])]
+            fastest = min(side.least for side in running)
         if turn >= least_rounds and time.perf_counter() > end:
             return
 
 
-def hopeless(side: Side, sides: list[Side]) -> bool:
-    """Whether a rival of the same group is far ahead."""
+def has_hope(side: Side, sides: list[Side], times: float) -> bool:
+    """Whether no rival of the same group is so far ahead."""
     best = min(rival.least for rival in sides if rival.group == side.group)
-    return side.group != "" and side.least > HOPELESS * best
+    return side.group == "" or side.least <= times * best
 
 
 def best_of(sides: Iterable[Side], group: str) -> Side | None:
