@@ -15,6 +15,8 @@ from ._core import (
     RLS,
     SKIPPED,
     Evidence,
+    Fleet,
+    FleetUpdate,
     InvalidInput,
     NumericalRange,
     Run,
@@ -25,6 +27,7 @@ from ._core import (
     weightings,
 )
 from .choices import Rate, Rule, Weighting, rate, rule, weighting
+from .fleet import FleetHealth
 from .health import Health
 from .meter import ExcitationMeter
 from .models import ARX
@@ -36,6 +39,9 @@ __all__ = [
     "SKIPPED",
     "Evidence",
     "ExcitationMeter",
+    "Fleet",
+    "FleetHealth",
+    "FleetUpdate",
     "Health",
     "InvalidInput",
     "NumericalRange",

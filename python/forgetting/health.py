@@ -15,7 +15,7 @@ from ._core import RLS
 Status = Literal["ok", "unexcited", "windup", "saturated"]
 
 #: Beyond these bounds on D the covariance is at the edge of its number type.
-_EDGE = {"float64": 2.0**490, "float32": 2.0**55}
+EDGE = {"float64": 2.0**490, "float32": 2.0**55}
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,7 +109,7 @@ def health_of(estimator: RLS, exact: bool = False) -> Health:
         values = np.sort(diagonal)[::-1]
     largest, smallest = float(values[0]), float(values[-1])
     eigenvalues = (largest, smallest, largest / smallest)
-    edge = _EDGE[estimator.dtype]
+    edge = EDGE[estimator.dtype]
     saturated = float(diagonal.max()) > edge or float(diagonal.min()) < 1 / edge
     watched = estimator.watched()
     if watched is None:

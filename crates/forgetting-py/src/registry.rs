@@ -1,6 +1,7 @@
 //! The registries as Python dictionaries.
 
 use crate::choice::write_value;
+use crate::fleet::REFUSED;
 use forgetting::parameter::{Kind, Parameter};
 use forgetting::rates::RATES;
 use forgetting::rules::{Claim, RULES};
@@ -89,12 +90,13 @@ pub fn weightings(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
     WEIGHTINGS.iter().map(|a| entry(py, a.name, a.type_name, a.source, a.parameters)).collect()
 }
 
-/// The codes of a record's `skipped`: 0 is None.
+/// The codes of `skipped` in the results of a record or a fleet: 0 is None.
 pub fn skip_codes(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     let codes = PyDict::new(py);
     codes.set_item(0, py.None())?;
     for reason in Skip::ALL {
         codes.set_item(reason.code(), reason.word())?;
     }
+    codes.set_item(REFUSED, "refused")?;
     Ok(codes)
 }

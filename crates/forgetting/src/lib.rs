@@ -28,6 +28,8 @@ mod evidence;
 mod excitation;
 pub mod factor;
 #[cfg(feature = "alloc")]
+pub mod fleet;
+#[cfg(feature = "alloc")]
 pub mod function;
 mod intake;
 mod lane;
