@@ -1,7 +1,7 @@
 //! The registries as Python dictionaries.
 
 use crate::choice::write_value;
-use crate::fleet::REFUSED;
+use forgetting::fleet::REFUSED;
 use forgetting::parameter::{Kind, Parameter};
 use forgetting::rates::RATES;
 use forgetting::rules::{Claim, RULES};

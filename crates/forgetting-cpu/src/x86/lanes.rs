@@ -41,7 +41,7 @@ __m512d => _mm512_div_pd, __m512 => _mm512_div_ps }
 /// The rest of the arithmetic of a pair of registers.
 macro_rules! pair {
     ($float:ident, $register:ty: $set1:ident $fmadd:ident $max:ident $sqrt:ident $cmp:ident
-     $and:ident $andnot:ident $xor:ident $blendv:ident) => {
+     $and:ident $andnot:ident $xor:ident $blendv:ident $movemask:ident $full:literal) => {
         impl Neg for Pair<$register> {
             type Output = Self;
             #[inline(always)]
@@ -95,6 +95,10 @@ macro_rules! pair {
                 Self(unsafe { $and(a.0, b.0) }, unsafe { $and(a.1, b.1) })
             }
             #[inline(always)]
+            fn all(mask: Self) -> bool {
+                unsafe { $movemask($and(mask.0, mask.1)) == $full }
+            }
+            #[inline(always)]
             fn select(mask: Self, yes: Self, no: Self) -> Self {
                 Self(unsafe { $blendv(no.0, yes.0, mask.0) }, unsafe {
                     $blendv(no.1, yes.1, mask.1)
@@ -105,9 +109,11 @@ macro_rules! pair {
 }
 
 pair!(f64, __m256d: _mm256_set1_pd _mm256_fmadd_pd _mm256_max_pd _mm256_sqrt_pd _mm256_cmp_pd
-    _mm256_and_pd _mm256_andnot_pd _mm256_xor_pd _mm256_blendv_pd);
+    _mm256_and_pd _mm256_andnot_pd _mm256_xor_pd _mm256_blendv_pd
+    _mm256_movemask_pd 0xF);
 pair!(f32, __m256: _mm256_set1_ps _mm256_fmadd_ps _mm256_max_ps _mm256_sqrt_ps _mm256_cmp_ps
-    _mm256_and_ps _mm256_andnot_ps _mm256_xor_ps _mm256_blendv_ps);
+    _mm256_and_ps _mm256_andnot_ps _mm256_xor_ps _mm256_blendv_ps
+    _mm256_movemask_ps 0xFF);
 
 /// The rest of the arithmetic of a wide register.
 macro_rules! wide {
@@ -155,6 +161,10 @@ macro_rules! wide {
             #[inline(always)]
             fn both(a: $mask, b: $mask) -> $mask {
                 a & b
+            }
+            #[inline(always)]
+            fn all(mask: $mask) -> bool {
+                mask == <$mask>::MAX
             }
             #[inline(always)]
             fn select(mask: $mask, yes: Self, no: Self) -> Self {

@@ -9,6 +9,9 @@ use core::arch::x86_64::*;
 use forgetting::vector::{Vector, HALF};
 
 mod lanes;
+mod single;
+
+use single::Single;
 
 /// Two registers of 256 bits.
 #[derive(Clone, Copy, Debug)]
@@ -39,6 +42,7 @@ macro_rules! at_mut {
         $array.as_mut_ptr().cast::<$float>().add($offset)
     };
 }
+use {at, at_mut};
 
 /// The first `count` of eight lanes.
 #[inline(always)]
@@ -82,6 +86,8 @@ unsafe fn masks32(count: usize) -> __m256i {
 // loads and stores need no alignment.
 
 impl Vector<Fused<f64>> for Wide<__m512d> {
+    type Abreast = Self;
+
     #[inline(always)]
     fn load(chunk: &[Fused<f64>; 8]) -> Self {
         Self(unsafe { _mm512_loadu_pd(at!(chunk, f64, 0)) })
@@ -116,6 +122,8 @@ impl Vector<Fused<f64>> for Wide<__m512d> {
 }
 
 impl Vector<Fused<f64>> for Pair<__m256d> {
+    type Abreast = Single<__m256d>;
+
     #[inline(always)]
     fn load(chunk: &[Fused<f64>; 8]) -> Self {
         unsafe { Self(_mm256_loadu_pd(at!(chunk, f64, 0)), _mm256_loadu_pd(at!(chunk, f64, 4))) }
@@ -166,6 +174,8 @@ impl Vector<Fused<f64>> for Pair<__m256d> {
 }
 
 impl Vector<Fused<f32>> for Wide<__m512> {
+    type Abreast = Self;
+
     #[inline(always)]
     fn load(chunk: &[Fused<f32>; 16]) -> Self {
         Self(unsafe { _mm512_loadu_ps(at!(chunk, f32, 0)) })
@@ -201,6 +211,8 @@ impl Vector<Fused<f32>> for Wide<__m512> {
 }
 
 impl Vector<Fused<f32>> for Pair<__m256> {
+    type Abreast = Single<__m256>;
+
     #[inline(always)]
     fn load(chunk: &[Fused<f32>; 16]) -> Self {
         unsafe { Self(_mm256_loadu_ps(at!(chunk, f32, 0)), _mm256_loadu_ps(at!(chunk, f32, 8))) }

@@ -61,11 +61,15 @@ pub fn fleet<T: Number>(
         fresh = like(&fresh, Some(factor[0]), fresh.prior().clone()).map_err(raise)?;
     }
     let mut streams = Streams::of(fresh);
-    streams.reserve(count)?;
+    streams.grow(count)?;
+    if covariances.is_none() && thetas.is_none() && factors.is_none() {
+        return Ok(streams);
+    }
     for i in 0..count {
-        let prior = prior(streams.fresh.prior(), each(&covariances, i), each(&thetas, i));
+        let fresh = streams.fresh();
+        let prior = prior(fresh.prior(), each(&covariances, i), each(&thetas, i));
         let factor = each(&factors, i).map(|factor| factor[0]);
-        let stream = prior.and_then(|prior| like(&streams.fresh, factor, prior));
+        let stream = prior.and_then(|prior| like(fresh, factor, prior));
         streams.put(i, stream.map_err(|error| at_stream(i, error))?)?;
     }
     Ok(streams)

@@ -1,10 +1,10 @@
 //! The class `Fleet`.
 
+mod estimators;
 mod make;
 mod streams;
 mod update;
 
-pub use streams::REFUSED;
 pub use update::FleetUpdate;
 
 use crate::arrays::{shaped, Number};
@@ -151,7 +151,7 @@ impl Fleet {
     /// differ, it has that of a new stream; see `forgetting_factor`.
     #[getter]
     fn rule<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let description = either!(&self.inner, s => results::describe(py, &s.fresh))?;
+        let description = either!(&self.inner, s => results::describe(py, s.fresh()))?;
         let choices = py.import("forgetting.choices")?;
         choices.call_method1("rule_from_description", (description, self.dtype()))
     }
@@ -276,10 +276,7 @@ impl Fleet {
             .extract::<i64>()
             .map_err(|_| invalid(format!("more = {more:?}, allowed: a whole number or a Fleet")))?;
         let count = read_count(count)?;
-        either!(&mut slf.borrow_mut().inner, s => {
-            s.reserve(count)?;
-            (0..count).try_for_each(|_| s.put(s.len(), s.fresh.clone()))
-        })
+        either!(&mut slf.borrow_mut().inner, s => s.grow(count))
     }
 
     /// Back to the initial estimate and covariance, as if no sample had been seen.
@@ -317,7 +314,7 @@ impl Fleet {
                 Ok(PyBytes::new(py, &estimator.to_bytes().map_err(raise)?))
             };
             let each = (0..s.len()).map(|i| state(&s.get(i)));
-            std::iter::once(state(&s.fresh)).chain(each).collect()
+            std::iter::once(state(s.fresh())).chain(each).collect()
         })
     }
 
@@ -385,9 +382,10 @@ impl Fleet {
     /// Adds the streams of another fleet.
     fn join(&mut self, other: &Inner) -> PyResult<()> {
         both!(&mut self.inner, Inner other; s, others => {
-            check_kind(&s.fresh, &others.fresh).map_err(raise)?;
-            s.reserve(others.len())?;
-            (0..others.len()).try_for_each(|i| s.put(s.len(), others.get(i)))
+            check_kind(s.fresh(), others.fresh()).map_err(raise)?;
+            let first = s.len();
+            s.grow(others.len())?;
+            (0..others.len()).try_for_each(|i| s.put(first + i, others.get(i)))
         })
         .unwrap_or_else(|| Err(invalid("a stream has the dtype of its fleet")))
     }
@@ -401,8 +399,8 @@ fn read_index(index: &Bound<'_, PyAny>) -> PyResult<i64> {
 /// A fleet of saved streams.
 fn restore<T: Number>(fresh: &[u8], states: &[Bound<'_, PyBytes>]) -> PyResult<Streams<T>> {
     let mut streams = Streams::of(AnyEstimator::<T>::from_bytes(fresh).map_err(raise)?);
-    check_callables(&streams.fresh)?;
-    streams.reserve(states.len())?;
+    check_callables(streams.fresh())?;
+    streams.grow(states.len())?;
     for (i, state) in states.iter().enumerate() {
         let stream = AnyEstimator::from_bytes(state.as_bytes());
         let stream = stream.map_err(|error| invalid(format!("stream {i}: {error}")))?;

@@ -1,8 +1,9 @@
 //! A sample for every stream of a fleet.
 
-use super::streams::{Streams, Told};
+use super::streams::Streams;
 use crate::arrays::{contiguous, shaped, Array, Number};
 use crate::errors::{invalid, raise};
+use forgetting::fleet::{Samples, Told};
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
@@ -58,13 +59,14 @@ pub fn update<T: Number>(
     let mut error = wanted("error").then(|| vec![T::ZERO; count]);
     let mut leverage = wanted("leverage").then(|| vec![T::ZERO; count]);
     let mut skipped = wanted("skipped").then(|| vec![0; count]);
-    let mut told = Told {
+    let told = Told {
         error: error.as_deref_mut(),
         leverage: leverage.as_deref_mut(),
         skipped: skipped.as_deref_mut(),
     };
     let (phi, y) = (T::wrap(phi.as_slice()?), T::wrap(y.as_slice()?));
-    let used = py.detach(|| streams.update(phi, y, mask.as_deref(), &mut told));
+    let samples = Samples { phi, y, mask: mask.as_deref() };
+    let used = py.detach(|| streams.update(samples, told)).map_err(raise)?;
     let array = |numbers: Option<Vec<T>>| {
         numbers.map(|numbers| shaped(py, numbers, &[count]).map(Bound::unbind)).transpose()
     };

@@ -10,6 +10,8 @@ mod agee_turner;
 mod along;
 mod bierman;
 mod block;
+#[cfg(feature = "alloc")]
+pub(crate) mod fleet;
 mod layout;
 mod long;
 mod measure;
@@ -18,6 +20,8 @@ mod steps;
 mod told;
 mod triangular;
 
+#[cfg(feature = "alloc")]
+pub(crate) use layout::BLOCK;
 pub use layout::{column, column_mut, length, set_identity, start, visit};
 pub(crate) use measure::{Measure, Place};
 pub(crate) use steps::Steps;
