@@ -21,6 +21,7 @@ def generate(docs: Path) -> None:
         ("rules", fg.rules()),
         ("rates", fg.rates()),
         ("weightings", fg.weightings()),
+        ("gates", fg.gates()),
     ):
         for about in entries:
             write(docs / kind / f"{about['name']}.md", choice(about, kind))
@@ -38,7 +39,7 @@ def write(path: Path, text: str) -> None:
 
 
 def choice(about: dict, kind: str) -> str:
-    """The page of a rule, rate or weighting: its header, and how it is written."""
+    """The page of a rule, rate, weighting or gate: its header, and how it is written."""
     rated = [("forgetting_factor", "0.99, or a [rate](../rates/index.md)")]
     first = rated if about.get("forgetting_factor") else []
     shown = [*first, *((p["name"], default(p)) for p in about["parameters"])]
@@ -68,6 +69,11 @@ ABOUT = {
         "in the place of the forgetting factor of any rule that takes one.",
     ),
     "weightings": ("Weightings", "How far to trust a sample: what Γ becomes."),
+    "gates": (
+        "Gates",
+        "Whether a sample is used: updated with, frozen (learned from, nothing forgotten) or held "
+        "(left alone). A gate stands before rule, rate and weighting.",
+    ),
 }
 
 

@@ -25,7 +25,7 @@ from typing import Any, ClassVar, Literal
 from numpy.typing import ArrayLike
 
 from ._core import Evidence
-from .choices import ForgettingFactor, Rate, Rule, Weighting
+from .choices import ForgettingFactor, Gate, Rate, Rule, Weighting
 """
 
 TYPES = {
@@ -38,11 +38,16 @@ TYPES = {
 }
 
 
-def parameter(entry: Mapping[str, Any]) -> str:
-    """One line of a constructor."""
+GATE_FUNCTION = 'Callable[[Evidence], Literal["update", "freeze", "hold"]]'
+
+
+def parameter(entry: Mapping[str, Any], of: type[choices.Choice]) -> str:
+    """One line of the constructor of `of`."""
     kind = entry["kind"]
     words = ", ".join(f'"{word}"' for word in entry["range"].split(", "))
     annotation = f"Literal[{words}]" if kind == "word" else TYPES[kind]
+    if kind == "function" and issubclass(of, choices.Gate):
+        annotation = GATE_FUNCTION
     if entry["required"]:
         return f"{entry['name']}: {annotation}"
     default = entry["default"]
@@ -54,11 +59,12 @@ def parameter(entry: Mapping[str, Any]) -> str:
     return f"{entry['name']}: {annotation} = {written}"
 
 
-def constructor(about: Mapping[str, Any]) -> Iterator[str]:
+def constructor(kind: type[choices.Choice]) -> Iterator[str]:
     """The constructor, each parameter on a line of its own."""
+    about = kind.about
     # the order of the real signature, in which the required parameters come first
-    order = list(choices.CLASSES[about["type_name"]].__signature__.parameters)  # type: ignore[attr-defined]
-    entries = {entry["name"]: parameter(entry) for entry in about["parameters"]}
+    order = list(kind.__signature__.parameters)  # type: ignore[attr-defined]
+    entries = {entry["name"]: parameter(entry, kind) for entry in about["parameters"]}
     if about.get("forgetting_factor"):
         entries["forgetting_factor"] = "forgetting_factor: ForgettingFactor = 0.99"
     if not order:
@@ -83,7 +89,7 @@ def stub_of(kind: type[choices.Choice]) -> Iterator[str]:
     yield ""
     yield "    about: ClassVar[Mapping[str, Any]]"
     yield "    name: ClassVar[str]"
-    yield from constructor(about)
+    yield from constructor(kind)
 
 
 def stub() -> str:

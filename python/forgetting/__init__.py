@@ -12,6 +12,7 @@ only what it should.
 
 from . import registry
 from ._core import (
+    GATE,
     RLS,
     SKIPPED,
     Evidence,
@@ -22,11 +23,12 @@ from ._core import (
     Run,
     Update,
     __version__,
+    gates,
     rates,
     rules,
     weightings,
 )
-from .choices import Rate, Rule, Weighting, rate, rule, weighting
+from .choices import Gate, Rate, Rule, Weighting, gate, rate, rule, weighting
 from .fleet import FleetHealth
 from .health import Health
 from .meter import ExcitationMeter
@@ -35,6 +37,7 @@ from .registry import *  # noqa: F403 (the classes of the registries)
 
 __all__ = [
     "ARX",
+    "GATE",
     "RLS",
     "SKIPPED",
     "Evidence",
@@ -42,6 +45,7 @@ __all__ = [
     "Fleet",
     "FleetHealth",
     "FleetUpdate",
+    "Gate",
     "Health",
     "InvalidInput",
     "NumericalRange",
@@ -51,6 +55,8 @@ __all__ = [
     "Update",
     "Weighting",
     "__version__",
+    "gate",
+    "gates",
     "rate",
     "rates",
     "rule",

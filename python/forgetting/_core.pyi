@@ -1,17 +1,18 @@
 """The core in Rust: estimators, what they return, and the registries of what they are made of."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, Literal, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import disjoint_base
 
-from .choices import Rule, Weighting
+from .choices import Gate, Rule, Weighting
 from .fleet import FleetHealth
 from .health import Health
 
 __all__ = [
+    "GATE",
     "RLS",
     "SKIPPED",
     "Evidence",
@@ -23,6 +24,7 @@ __all__ = [
     "Run",
     "Update",
     "__version__",
+    "gates",
     "rates",
     "rules",
     "weightings",
@@ -30,6 +32,7 @@ __all__ = [
 
 __version__: str
 SKIPPED: dict[int, str | None]
+GATE: dict[int, str]
 
 class InvalidInput(ValueError): ...
 class NumericalRange(ArithmeticError): ...
@@ -46,6 +49,10 @@ class Update:
     def rank(self) -> int: ...
     @property
     def skipped(self) -> str | None: ...
+    @property
+    def gate(self) -> Literal["update", "freeze", "hold"]: ...
+    @property
+    def whitened_innovation(self) -> Any: ...
     @property
     def windup(self) -> bool: ...
 
@@ -83,11 +90,17 @@ class Run:
     @property
     def skipped(self) -> NDArray[np.uint8] | None: ...
     @property
+    def gate(self) -> NDArray[np.uint8] | None: ...
+    @property
     def windup(self) -> NDArray[np.bool_] | None: ...
+    @property
+    def whitened_innovation(self) -> NDArray[Any] | None: ...
     @property
     def variance(self) -> NDArray[Any] | None: ...
     @property
     def covariance(self) -> NDArray[Any] | None: ...
+    @property
+    def prior_covariance(self) -> NDArray[Any] | None: ...
     @property
     def samples(self) -> int: ...
     @property
@@ -103,6 +116,7 @@ class RLS:
         *,
         rule: str | Rule | None = None,
         weighting: str | Weighting | None = None,
+        gate: str | Gate | Callable[[Evidence], str] | None = None,
         rows: int = 1,
         targets: int = 1,
         initial_covariance: ArrayLike | None = None,
@@ -128,6 +142,8 @@ class RLS:
     def rule(self) -> Rule: ...
     @property
     def weighting(self) -> Weighting: ...
+    @property
+    def gate(self) -> Gate: ...
     def factor(self) -> tuple[NDArray[Any], NDArray[Any]]: ...
     def health(self, exact: bool = False) -> Health: ...
     def watched(self) -> dict[str, Any] | None: ...
@@ -171,14 +187,20 @@ class Fleet:
         rule: str | Rule | None = None,
         forgetting_factor: ArrayLike | None = None,
         weighting: str | Weighting | None = None,
+        gate: str | Gate | None = None,
         initial_covariance: ArrayLike | None = None,
         initial_theta: ArrayLike | None = None,
         dtype: str = "float64",
+        threads: int | None = None,
     ) -> Fleet: ...
     @property
     def count(self) -> int: ...
     @property
     def parameters(self) -> int: ...
+    @property
+    def threads(self) -> int | None: ...
+    @threads.setter
+    def threads(self, value: int | None) -> None: ...
     @property
     def dtype(self) -> str: ...
     @property
@@ -232,3 +254,4 @@ class InformationWindow:
 def rules() -> list[dict[str, Any]]: ...
 def rates() -> list[dict[str, Any]]: ...
 def weightings() -> list[dict[str, Any]]: ...
+def gates() -> list[dict[str, Any]]: ...

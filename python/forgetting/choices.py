@@ -1,4 +1,4 @@
-"""Rules, rates and weightings as Python objects, made from the registries of the Rust core.
+"""Rules, rates, weightings and gates as Python objects, made from the registries of the Rust core.
 
 Every entry of a registry becomes a class here, under the name of its Rust type: its constructor
 takes the entry's parameters, checks their names, and leaves their values to the core to check.
@@ -110,6 +110,10 @@ class Weighting(Choice):
     """How far to trust a sample."""
 
 
+class Gate(Choice):
+    """Whether a sample is used."""
+
+
 def _as_rate(given: Any) -> Any:
     """A number, or a rate made from what else may stand for a forgetting factor."""
     if isinstance(given, str):
@@ -160,8 +164,11 @@ WEIGHTINGS: dict[str, type[Weighting]] = {
     a["name"]: _make(Weighting, a)  # type: ignore[misc]
     for a in _core.weightings()
 }
+GATES: dict[str, type[Gate]] = {a["name"]: _make(Gate, a) for a in _core.gates()}  # type: ignore[misc]
 CLASSES: dict[str, type[Choice]] = {
-    kind.__name__: kind for registry in (RULES, RATES, WEIGHTINGS) for kind in registry.values()
+    kind.__name__: kind
+    for registry in (RULES, RATES, WEIGHTINGS, GATES)
+    for kind in registry.values()
 }
 
 AnyChoice = TypeVar("AnyChoice", bound=Choice)
@@ -252,6 +259,30 @@ def weighting(name: str, **parameters: Any) -> Weighting:
     return _named("weighting", WEIGHTINGS, name, parameters)
 
 
+def gate(name: str, **parameters: Any) -> Gate:
+    """Make the gate of this registry name.
+
+    Parameters
+    ----------
+    name : str
+        Registry name, one of ``[g["name"] for g in forgetting.gates()]``.
+    **parameters
+        The gate's parameters.
+
+    Raises
+    ------
+    InvalidInput
+        For a name that is not in the registry, or a parameter that the gate does not have.
+
+    Examples
+    --------
+    >>> import forgetting as fg
+    >>> fg.gate("dead_zone", width=2)
+    DeadZone(width=2.0, otherwise='hold')
+    """
+    return _named("gate", GATES, name, parameters)
+
+
 def rule_from_description(description: Mapping[str, Any], dtype: str) -> Rule:
     """The rule that `RLS.describe` describes."""
     described = _rounded(description, dtype)
@@ -262,6 +293,12 @@ def weighting_from_description(description: Mapping[str, Any], dtype: str) -> We
     """The weighting that `RLS.describe` describes."""
     described = _rounded(description["weighting"], dtype)
     return weighting(described["name"], **described["parameters"])
+
+
+def gate_from_description(description: Mapping[str, Any], dtype: str) -> Gate:
+    """The gate that `RLS.describe` describes."""
+    described = _rounded(description["gate"], dtype)
+    return gate(described["name"], **described["parameters"])
 
 
 def _rounded(value: Any, dtype: str) -> Any:

@@ -1,4 +1,4 @@
-"""Every rule, rate and weighting of the registries, each a class of its own.
+"""Every rule, rate, weighting and gate of the registries, each a class of its own.
 
 The classes are made at import; `registry.pyi`, written by ``tools/stubs.py``, tells type
 checkers and editors of them.

@@ -7,7 +7,7 @@ from typing import Any, ClassVar, Literal
 from numpy.typing import ArrayLike
 
 from ._core import Evidence
-from .choices import ForgettingFactor, Rate, Rule, Weighting
+from .choices import ForgettingFactor, Gate, Rate, Rule, Weighting
 
 __all__ = [
     "Component",
@@ -17,6 +17,7 @@ __all__ = [
     "Custom",
     "CyclicResetting",
     "DataDependent",
+    "DeadZone",
     "Directional",
     "Efra",
     "Equal",
@@ -26,13 +27,16 @@ __all__ = [
     "FTest",
     "Fortescue",
     "Function",
+    "GateFunction",
     "Gradient",
     "Huber",
     "MatrixForgetting",
+    "MinimumInformation",
     "Multiple",
     "NoForgetting",
     "NoisePower",
     "ObliqueProjection",
+    "Open",
     "PredictionError",
     "RandomWalk",
     "Restricted",
@@ -175,7 +179,8 @@ class CovarianceResetting(Rule):
       ten times as large are found after 4 to 5 samples on average.
 
     At a reset the rule still chooses what is measured, and its own state goes on. A sample that
-    it skips is skipped, and the criterion does not see it. The forgetting factor is the rule's.
+    it skips is skipped, and the criterion does not see it, nor one that a gate holds or freezes.
+    The forgetting factor is the rule's.
 
     - Proper (A1): if P ≤ P_∞ at every reset and the rule is proper.
     - P̄ bounded above without excitation (A2): if the rule's is.
@@ -316,6 +321,46 @@ class DataDependent(Rule):
         noise_bound: float = 1.0,
         largest_weight: float = 0.5,
         initial_radius: float = 1.0,
+    ) -> None: ...
+
+class DeadZone(Gate):
+    """Lets a sample through if its error is larger than the noise explains.
+
+    ```text
+    r_k = ‖ē_k‖ over the rows, of the target where it is longest     ē = Γ^(−1/2)(y − φθ)
+    update if r_k > width, else what `otherwise` says
+    ```
+
+    | symbol | name | range | default |
+    |---|---|---|---|
+    | r | width | (0, ∞) | 1 |
+    | | otherwise | hold, freeze | hold |
+
+    The error is whitened by Γ: `width` is in standard deviations of the noise where Γ is its
+    covariance, and in units of y where Γ is not given, which is 1. It is the error itself, not
+    divided by √(1 + φ̄Pφ̄ᵀ) and not weighted.
+
+    - While the model explains the data to within `width`, nothing is forgotten: with hold θ and P
+      stay as they are, with freeze P still shrinks as the data say. Neither can wind up.
+    - With bounded noise, ‖ē‖ ≤ width for the true θ, held samples are those that do not contradict
+      θ. Gaussian noise of variance 1 is within a width of 2 for 95 % of the samples: to hold those
+      is to learn from the tails only, and slowly.
+    - An error that is small by chance holds a sample that would have told much, so that hold
+      learns later than it could. Freeze does not.
+    - Cost: O(p m). State: none.
+    - Use it against drift in quiet times, and where the parameters change seldom: `freeze` then
+      averages on, and forgets when the model no longer fits.
+
+    Reference: B. Egardt, *Stability of Adaptive Controllers*, 1979; G. C. Goodwin, K. S. Sin,
+    *Adaptive Filtering, Prediction and Control*, 1984.
+    """
+
+    about: ClassVar[Mapping[str, Any]]
+    name: ClassVar[str]
+    def __init__(
+        self,
+        width: float = 1.0,
+        otherwise: Literal["hold", "freeze"] = "hold",
     ) -> None: ...
 
 class Directional(Rule):
@@ -635,6 +680,34 @@ class Function(Rate):
         function: Callable[[Evidence], float],
     ) -> None: ...
 
+class GateFunction(Gate):
+    """Asks a function of yours what to do with each sample.
+
+    ```text
+    update, freeze or hold = f(evidence of sample k)
+    ```
+
+    | symbol | name | range | default |
+    |---|---|---|---|
+    | f | function | a function of the evidence that answers `update`, `freeze` or `hold` | |
+
+    - The function sees the whitened errors, not clipped by the weighting, and what P says of the
+      sample, before anything is forgotten.
+    - Any other answer, or a failure of the function, refuses the sample: the estimator is as it
+      was, bit for bit. A function that remembers has then still seen the sample.
+    - Cost: the function, and O(p n²/2 + p² n) for what it is shown. State: none that is saved; an
+      estimator with a function cannot be.
+    - Use it for what you know and the record does not say: a valve that is shut, a sensor that
+      saturates.
+    """
+
+    about: ClassVar[Mapping[str, Any]]
+    name: ClassVar[str]
+    def __init__(
+        self,
+        function: Callable[[Evidence], Literal["update", "freeze", "hold"]],
+    ) -> None: ...
+
 class Gradient(Rate):
     """Follows the gradient of the modelled mean square error down to the best factor.
 
@@ -759,6 +832,42 @@ class MatrixForgetting(Rule):
         power: int = 1,
         choice: int = 1,
         shift: float = 0.0,
+    ) -> None: ...
+
+class MinimumInformation(Gate):
+    """Lets a sample through if it can tell enough beside what is known already.
+
+    ```text
+    s_k = tr φ̄_k P_k φ̄_kᵀ,  P before forgetting
+    update if s_k ≥ information, else what `otherwise` says
+    ```
+
+    | symbol | name | range | default |
+    |---|---|---|---|
+    | s | information | (0, ∞) | 1e-6 |
+    | | otherwise | hold, freeze | hold |
+
+    s is the variance of the prediction in units of the noise's; the sample tells ½ ln(1 + s) nats
+    of θ, for one row. It has no unit, and does not depend on the units of φ or θ.
+
+    - While every regressor is small, P stays as it is: silence cannot wind up, with any rule. Where
+      other directions go on telling, the gate is open and those that are silent are the rule's
+      affair: only a rule that forgets direction by direction keeps them.
+    - `information` must be well below what a sample tells in the steady state, which for n
+      parameters that are all excited is about n (1 − λ), shared unevenly among the samples. Above
+      that P shrinks until no sample passes, and the gate never opens again.
+    - Freeze lets such samples reduce P, hold does not.
+    - Cost: O(p n²/2). State: none.
+    - Use it with a rule that forgets in silence, such as `exponential`, for records with nights
+      and standstills.
+    """
+
+    about: ClassVar[Mapping[str, Any]]
+    name: ClassVar[str]
+    def __init__(
+        self,
+        information: float = 1e-06,
+        otherwise: Literal["hold", "freeze"] = "hold",
     ) -> None: ...
 
 class Multiple(Rule):
@@ -909,6 +1018,24 @@ class ObliqueProjection(Rule):
         forgetting_factor: ForgettingFactor = 0.99,
         threshold: float = 1e-06,
     ) -> None: ...
+
+class Open(Gate):
+    """Lets every sample through.
+
+    ```text
+    update, always
+    ```
+
+    | symbol | name | range | default |
+    |---|---|---|---|
+
+    - Cost: none. State: none.
+    - Use it where the rule itself knows what to leave alone, as `subspace` does.
+    """
+
+    about: ClassVar[Mapping[str, Any]]
+    name: ClassVar[str]
+    def __init__(self) -> None: ...
 
 class PredictionError(Rate):
     """Forgets more the larger the prediction error, less the less certain the estimate.

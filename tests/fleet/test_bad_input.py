@@ -23,6 +23,8 @@ BAD_ARGUMENTS = [
         {"forgetting_factor": 0.9, "rule": fg.Exponential(fg.Fortescue())},
         r"forgetting_factor is given twice: the rule has the rate fortescue",
     ),
+    ({"gate": lambda evidence: "update"}, r"a fleet takes no function of yours"),
+    ({"gate": "nonsense"}, r'gate = "nonsense" is not known'),
     ({"weighting": "nonsense"}, r'weighting = "nonsense" is not known'),
     ({"initial_covariance": -1}, r"initial_covariance\[0\] = -1, allowed: positive"),
     ({"initial_covariance": [1, 2]}, r"initial_covariance has shape \[2\], expected one of"),
@@ -33,6 +35,7 @@ BAD_ARGUMENTS = [
     ),
     ({"initial_theta": [1, 2]}, r"initial_theta has shape \[2\], expected one of \(3,\), \(4, 3\)"),
     ({"initial_theta": np.full((4, 3), np.nan)}, r"stream 0: initial_theta\[0\] = NaN"),
+    ({"threads": 0}, r"threads = 0, allowed: whole numbers from 1"),
     ({"dtype": "int32"}, r'dtype = "int32", allowed: "float64", "float32"'),
 ]
 
@@ -99,6 +102,7 @@ STRANGERS = [
     (fg.RLS(3, rule=fg.Subspace(0.99, threshold=0.5)), "the rule of its fleet"),
     (fg.RLS(3, rule=fg.Subspace(fg.Fortescue())), "the rate of its fleet"),
     (fg.RLS(3, weighting="huber"), "the weighting of its fleet"),
+    (fg.RLS(3, gate=fg.MinimumInformation()), "the gate of its fleet"),
     (fg.RLS(3, monitor=True), "not monitored"),
     (fg.RLS(3, dtype="float32"), "the dtype of its fleet"),
 ]

@@ -36,6 +36,12 @@ def test_every_weighting(about):
     follow(fg.Subspace(0.9), 3, "float64", weighting=about["name"])
 
 
+@pytest.mark.parametrize("about", fg.gates(), ids=lambda about: about["name"])
+def test_every_gate(about):
+    if about["name"] != "gate_function":
+        follow(fg.Subspace(0.9), 3, "float64", gate=about["name"])
+
+
 def test_values_of_its_own_for_each_stream():
     random = np.random.default_rng(1)
     factor = random.uniform(0.8, 1.0, size=COUNT)

@@ -68,8 +68,15 @@ macro_rules! fused {
             const EPSILON: Self = Self(<$float as Real>::EPSILON);
             const CEILING: Self = Self(<$float as Real>::CEILING);
             const FLOOR: Self = Self(<$float as Real>::FLOOR);
+            const ROWS: usize = $lanes;
             const BYTES: usize = <$float as Real>::BYTES;
 
+            #[inline(always)]
+            fn chunk(numbers: &[Self]) -> Self::Chunk {
+                let mut chunk = [Self::ZERO; $lanes];
+                chunk[..numbers.len()].copy_from_slice(numbers);
+                chunk
+            }
             #[inline(always)]
             fn chunks(numbers: &[Self]) -> (&[Self::Chunk], &[Self]) {
                 numbers.as_chunks()

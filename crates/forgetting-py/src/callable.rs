@@ -1,9 +1,10 @@
 //! Functions of the user's: Python callables that the core asks in the middle of a sample.
 
 use crate::arrays::{shaped, Number};
-use crate::errors::keep_exception;
+use crate::errors::{invalid, keep_exception};
 use crate::function::Callable;
-use forgetting::function::MatrixFunction;
+use forgetting::function::{EvidenceFunction, MatrixFunction};
+use forgetting::gates::{Answer, GateFunction};
 use forgetting::parameter::{Kind, Parameter, Value};
 use forgetting::rates::Function;
 use forgetting::rules::Forgetting;
@@ -11,7 +12,7 @@ use forgetting::saved::AnyEstimator;
 use forgetting::{Dynamic, Error};
 use forgetting_cpu::Fused;
 use pyo3::prelude::*;
-use pyo3::types::PyFloat;
+use pyo3::types::{PyFloat, PyType};
 use std::any::Any;
 use std::sync::Arc;
 
@@ -23,6 +24,7 @@ pub fn calls_python<T: Number>(estimator: &AnyEstimator<T>) -> bool {
     let has = |parameters: &[Parameter], kind| parameters.iter().any(|p| p.kind == kind);
     let parameters = rule.about().parameters;
     has(rate.about().parameters, Kind::Function)
+        || has(estimator.gate().about().parameters, Kind::Function)
         || has(parameters, Kind::Function)
         || has(parameters, Kind::Rule) && {
             let mut found = false;
@@ -43,9 +45,9 @@ fn is_function(value: Value<'_>) -> bool {
     }
 }
 
-/// What a callable rate is told of a sample, before the sample is used.
+/// What a callable rate or gate is told of a sample, before the sample is used.
 ///
-/// Errors are whitened by gamma and clipped by the weighting. S is phi @ P @ phi.T, whitened, with
+/// Errors are whitened by gamma; a rate sees them clipped by the weighting. S is phi @ P @ phi.T, whitened, with
 /// the P before forgetting.
 ///
 /// Attributes
@@ -102,30 +104,63 @@ impl Evidence {
     }
 }
 
+/// Whether this is a function, not a choice that is made from one.
+pub fn is_plain(object: &Bound<'_, PyAny>) -> PyResult<bool> {
+    let is_class = object.is_instance_of::<PyType>();
+    Ok(object.is_callable()
+        && !is_class
+        && !(object.hasattr("name")? && object.hasattr("parameters")?))
+}
+
 /// The rate that asks `callable` for the forgetting factor of each sample.
 pub fn rate<T: Number>(callable: &Bound<'_, PyAny>) -> Function<Dynamic<T>> {
     let asked = callable.clone().unbind();
-    Function::new(move |evidence: &forgetting::Evidence<'_, '_, Dynamic<T>>| ask(&asked, evidence))
-        .with_origin(callable.clone().unbind())
+    Function::new(move |evidence: &forgetting::Evidence<'_, '_, Dynamic<T>>| {
+        ask(&asked, evidence, |answer| answer.extract().map(T::from_f64))
+    })
+    .with_origin(callable.clone().unbind())
+}
+
+/// The gate that asks `callable` what to do with each sample.
+pub fn gate<T: Number>(callable: &Bound<'_, PyAny>) -> GateFunction<Dynamic<T>> {
+    let asked = callable.clone().unbind();
+    GateFunction::new(move |evidence: &forgetting::Evidence<'_, '_, Dynamic<T>>| {
+        ask(&asked, evidence, answer)
+    })
+    .with_origin(callable.clone().unbind())
+}
+
+/// A gate's answer in Python's words.
+fn answer(answer: &Bound<'_, PyAny>) -> PyResult<Answer> {
+    let word = answer.extract::<String>().ok();
+    word.and_then(|word| Answer::of_word(&word)).ok_or_else(|| {
+        invalid(format!("gate answered {answer:?}, allowed: \"update\", \"freeze\", \"hold\""))
+    })
 }
 
 /// The callable that a function of the core was made from; None if it was not.
 pub fn python<'py>(py: Python<'py>, function: &(dyn Any + Send + Sync)) -> Bound<'py, PyAny> {
-    fn origin<T: Number>(function: &(dyn Any + Send + Sync)) -> Option<&Py<PyAny>> {
-        function.downcast_ref::<Function<Dynamic<T>>>()?.origin().downcast_ref()
-    }
     let matrix = || function.downcast_ref::<Arc<dyn MatrixFunction>>()?.as_any().downcast_ref();
-    let plain = origin::<f64>(function).or_else(|| origin::<f32>(function));
-    let fused = || origin::<Fused<f64>>(function).or_else(|| origin::<Fused<f32>>(function));
-    let rate = plain.or_else(fused);
+    let asked = origin::<f64>(function).or_else(|| origin::<f32>(function));
+    let asked = asked.or_else(|| origin::<Fused<f64>>(function));
+    let asked = asked.or_else(|| origin::<Fused<f32>>(function));
     let rule = matrix().map(|callable: &Callable| callable.object(py));
-    rate.map(|callable| callable.bind(py).clone()).or(rule).unwrap_or(py.None().into_bound(py))
+    asked.map(|callable| callable.bind(py).clone()).or(rule).unwrap_or(py.None().into_bound(py))
 }
 
-fn ask<T: Number>(
+/// The callable of a rate or a gate in this number type.
+fn origin<T: Number>(function: &(dyn Any + Send + Sync)) -> Option<&Py<PyAny>> {
+    fn of<T: Number, A: 'static>(function: &(dyn Any + Send + Sync)) -> Option<&Py<PyAny>> {
+        function.downcast_ref::<EvidenceFunction<Dynamic<T>, A>>()?.origin().downcast_ref()
+    }
+    of::<T, T>(function).or_else(|| of::<T, Answer>(function))
+}
+
+fn ask<T: Number, A>(
     callable: &Py<PyAny>,
     evidence: &forgetting::Evidence<'_, '_, Dynamic<T>>,
-) -> Result<T, Error> {
+    read: impl FnOnce(&Bound<'_, PyAny>) -> PyResult<A>,
+) -> Result<A, Error> {
     let seen = Evidence {
         squared_error: evidence.squared_error.to_f64(),
         leverage: evidence.leverage.to_f64(),
@@ -137,7 +172,7 @@ fn ask<T: Number>(
         errors: evidence.errors.iter().map(|error| error.to_f64()).collect(),
     };
     Python::attach(|py| {
-        let answer = callable.call1(py, (seen,)).and_then(|answer| answer.extract::<f64>(py));
-        answer.map(T::from_f64).map_err(keep_exception)
+        let answer = callable.bind(py).call1((seen,));
+        answer.and_then(|answer| read(&answer)).map_err(keep_exception)
     })
 }

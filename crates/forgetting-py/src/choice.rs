@@ -1,4 +1,4 @@
-//! A rule, a rate or a weighting as Python says it: a name, or an object with the attributes
+//! A rule, a rate, a weighting or a gate as Python says it: a name, or an object with the attributes
 //! `name` and `parameters`.
 
 use crate::arrays::with_slice;
@@ -30,7 +30,12 @@ pub struct Choice {
 }
 
 impl Choice {
-    /// By name alone, with this one parameter.
+    /// By name alone.
+    pub fn named(name: &str) -> Self {
+        Self { name: name.into(), parameters: Vec::new() }
+    }
+
+    /// By name, with this one parameter.
     pub fn with_number(name: &str, parameter: &str, value: f64) -> Self {
         Self { name: name.into(), parameters: vec![(parameter.into(), Given::Real(value))] }
     }

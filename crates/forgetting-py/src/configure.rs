@@ -4,6 +4,7 @@ use crate::arrays::{with_slice, Array, Number};
 use crate::callable;
 use crate::choice::{shape_of, Choice};
 use crate::errors::{invalid, raise};
+use forgetting::gates::{AnyGate, GATES};
 use forgetting::parameter::Parameter;
 use forgetting::rates::{AnyRate, RATES};
 use forgetting::rules::{Rule, RULES};
@@ -25,29 +26,56 @@ pub fn read_sizes(sizes: [(&'static str, i64); 3]) -> PyResult<[usize; 3]> {
     Ok(read)
 }
 
-/// Makes an estimator from Python's arguments.
+/// Makes an estimator from Python's arguments: sizes; rule, weighting and gate; initial values.
 pub fn make<T: Number>(
     [parameters, rows, targets]: [usize; 3],
-    rule: Option<Array<'_, '_>>,
-    weighting: Option<Array<'_, '_>>,
+    [rule, weighting, gate]: [Option<Array<'_, '_>>; 3],
     (covariance, theta): (Option<Array<'_, '_>>, Option<Array<'_, '_>>),
 ) -> PyResult<AnyEstimator<T>> {
     let memory = Dynamic::<T>::new(parameters, rows, targets).map_err(raise)?;
     let (rule, rate) = read_rule(rule, memory)?;
-    let weighting = match weighting {
-        None => Choice::with_number("equal", "", 0.0),
-        Some(object) => Choice::read("weighting", object)?,
-    };
-    let known = WEIGHTINGS.iter().find(|about| about.name == weighting.name);
-    let known = known.map(|about| about.parameters).filter(|_| weighting.name != "equal");
-    let weighting = weighting
-        .make("weighting", known, |name, values| AnyWeighting::named(name, values, memory))?;
+    let (weighting, gate) = (read_weighting(weighting, memory)?, read_gate(gate, memory)?);
     let prior = read_prior(memory, covariance)?;
     let prior = match theta {
         None => prior,
         Some(theta) => prior.with_theta(&read_theta(memory, theta)?).map_err(raise)?,
     };
-    Ok(Estimator::new(rule, rate, weighting, prior))
+    Ok(Estimator::new(rule, rate, weighting, prior).with_gate(gate))
+}
+
+fn read_weighting<T: Number>(
+    object: Option<Array<'_, '_>>,
+    memory: Dynamic<T>,
+) -> PyResult<AnyWeighting<Dynamic<T>>> {
+    let choice = match object {
+        None => Choice::named("equal"),
+        Some(object) => Choice::read("weighting", object)?,
+    };
+    let known = WEIGHTINGS.iter().find(|about| about.name == choice.name);
+    choice.make("weighting", known.map(|about| about.parameters), |name, values| {
+        AnyWeighting::named(name, values, memory)
+    })
+}
+
+/// The gate; a callable is one, too.
+fn read_gate<T: Number>(
+    object: Option<Array<'_, '_>>,
+    memory: Dynamic<T>,
+) -> PyResult<AnyGate<Dynamic<T>>> {
+    let choice = match object {
+        None => Choice::named("open"),
+        Some(object) if callable::is_plain(object)? => {
+            return Ok(AnyGate::GateFunction(callable::gate(object)));
+        }
+        Some(object) => Choice::read("gate", object)?,
+    };
+    if let Some(asked) = object.and_then(|object| choice.callable(object.py(), "function")) {
+        return Ok(AnyGate::GateFunction(callable::gate(&asked)));
+    }
+    let known = GATES.iter().find(|about| about.name == choice.name);
+    choice.make("gate", known.map(|about| about.parameters), |name, values| {
+        AnyGate::named(name, values, memory)
+    })
 }
 
 type RuleAndRate<T> = (Rule<Dynamic<T>>, AnyRate<Dynamic<T>>);

@@ -2,8 +2,9 @@
 
 use crate::arrays::{shaped, Number, Stored};
 use crate::errors::invalid;
+use forgetting::gates::Answer;
 use forgetting::saved::AnyEstimator;
-use forgetting::{Memory, Skip, Update};
+use forgetting::{Dynamic, Factor, Memory, Skip, Update};
 use pyo3::prelude::*;
 
 /// Results of `RLS.run`, one entry a sample; an output that was not asked for is None.
@@ -22,12 +23,19 @@ use pyo3::prelude::*;
 ///     Number of directions that lost information.
 /// skipped : ndarray (T,) of uint8
 ///     Code of the reason, see `forgetting.SKIPPED`; 0 where the sample was used.
+/// gate : ndarray (T,) of uint8
+///     Code of what the gate said, see `forgetting.GATE`; 0 where it was open.
 /// windup : ndarray (T,) of bool
 ///     Whether the covariance has grown to more than ten times its first value.
+/// whitened_innovation : ndarray (T, rows) or (T, rows, targets)
+///     solve(L, error) with L @ L.T = gamma + phi @ P @ phi.T, L lower triangular and P that after
+///     forgetting; NaN where a value is missing. See `Update`.
 /// variance : ndarray (T, n)
 ///     Diagonal of P after each sample.
 /// covariance : ndarray (T, n, n)
 ///     P after each sample.
+/// prior_covariance : ndarray (T, n, n)
+///     P after forgetting and before the data of each sample.
 /// samples, used, skipped_count : int
 ///     Number of samples in the record, used, and left out.
 #[pyclass(frozen, get_all, module = "forgetting")]
@@ -38,9 +46,12 @@ pub struct Run {
     forgetting_factor: Option<Py<PyAny>>,
     rank: Option<Py<PyAny>>,
     skipped: Option<Py<PyAny>>,
+    gate: Option<Py<PyAny>>,
     windup: Option<Py<PyAny>>,
+    whitened_innovation: Option<Py<PyAny>>,
     variance: Option<Py<PyAny>>,
     covariance: Option<Py<PyAny>>,
+    prior_covariance: Option<Py<PyAny>>,
     samples: usize,
     used: usize,
     skipped_count: usize,
@@ -49,16 +60,19 @@ pub struct Run {
 /// Names of the outputs that are kept when none are named.
 pub const DEFAULT_OUTPUTS: [&str; 6] =
     ["theta", "error", "leverage", "forgetting_factor", "rank", "skipped"];
-const ALL_OUTPUTS: [&str; 9] = [
+const ALL_OUTPUTS: [&str; 12] = [
     "theta",
     "error",
     "leverage",
     "forgetting_factor",
     "rank",
     "skipped",
+    "gate",
     "windup",
+    "whitened_innovation",
     "variance",
     "covariance",
+    "prior_covariance",
 ];
 
 /// The outputs as they grow.
@@ -69,9 +83,12 @@ pub struct Outputs<T> {
     forgetting_factor: Option<Vec<T>>,
     rank: Option<Vec<i64>>,
     skipped: Option<Vec<u8>>,
+    gate: Option<Vec<u8>>,
     windup: Option<Vec<bool>>,
+    whitened_innovation: Option<Vec<T>>,
     variance: Option<Vec<T>>,
     covariance: Option<Vec<T>>,
+    prior_covariance: Option<Vec<T>>,
     used: usize,
 }
 
@@ -106,11 +123,20 @@ impl<T: Number> Outputs<T> {
             forgetting_factor: room("forgetting_factor", 1),
             rank: wanted("rank").then(|| Vec::with_capacity(samples)),
             skipped: wanted("skipped").then(|| Vec::with_capacity(samples)),
+            gate: wanted("gate").then(|| Vec::with_capacity(samples)),
             windup: wanted("windup").then(|| Vec::with_capacity(samples)),
+            whitened_innovation: room("whitened_innovation", p * m),
             variance: room("variance", n),
             covariance: room("covariance", n * n),
+            prior_covariance: room("prior_covariance", n * n),
             used: 0,
         })
+    }
+
+    /// Makes `estimator` keep what the outputs need beside what it keeps anyway.
+    pub fn prepare(&self, estimator: &mut AnyEstimator<T>) {
+        estimator.keep_innovations(self.whitened_innovation.is_some());
+        estimator.keep_prior(self.prior_covariance.is_some());
     }
 
     /// What a sample told.
@@ -123,20 +149,58 @@ impl<T: Number> Outputs<T> {
         push(&mut self.forgetting_factor, update.forgetting_factor);
         push(&mut self.rank, update.rank as i64);
         push(&mut self.skipped, update.skipped.map_or(0, Skip::code));
+        push(&mut self.gate, update.gate.code());
         push(&mut self.windup, update.windup);
+        if let Some(whitened) = &mut self.whitened_innovation {
+            let start = whitened.len();
+            whitened.resize(start + update.error.len(), T::ZERO);
+            let kept = update.whiten(&mut whitened[start..]);
+            debug_assert!(kept.is_ok(), "prepared for");
+        }
         self.used += usize::from(update.skipped.is_none());
     }
 
     /// A sample that never reached the estimator, which stays as it is.
     pub fn note_missing(&mut self, width: usize) {
-        if let Some(error) = &mut self.error {
-            error.extend(std::iter::repeat_n(T::from_f64(f64::NAN), width));
+        let nothing = T::from_f64(f64::NAN);
+        for output in [&mut self.error, &mut self.whitened_innovation].into_iter().flatten() {
+            output.extend(std::iter::repeat_n(nothing, width));
         }
-        push(&mut self.leverage, T::from_f64(f64::NAN));
+        push(&mut self.leverage, nothing);
         push(&mut self.forgetting_factor, T::ONE);
         push(&mut self.rank, 0);
         push(&mut self.skipped, Skip::Missing.code());
+        push(&mut self.gate, Answer::Update.code());
         push(&mut self.windup, false);
+    }
+
+    /// Whether an output is taken from the estimator after each sample, other than θ.
+    pub fn need_every_state(&self) -> bool {
+        [&self.variance, &self.covariance, &self.prior_covariance].into_iter().any(Option::is_some)
+    }
+
+    /// Lets `advance` write θ after each of at most `most` samples of n numbers, if θ is kept, and
+    /// keeps those of as many samples as it says it took.
+    pub fn with_thetas(
+        &mut self,
+        (most, n): (usize, usize),
+        advance: impl FnOnce(&mut [T]) -> usize,
+    ) -> usize {
+        let Some(theta) = &mut self.theta else { return advance(&mut []) };
+        let before = theta.len();
+        theta.resize(before + most * n, T::ZERO);
+        let taken = advance(&mut theta[before..]);
+        theta.truncate(before + taken * n);
+        taken
+    }
+
+    /// P̄ of a sample, which is P where it was `missing`.
+    #[inline(always)]
+    pub fn note_prior(&mut self, estimator: &AnyEstimator<T>, missing: bool) {
+        if let Some(covariance) = &mut self.prior_covariance {
+            let prior = estimator.prior_factor().filter(|_| !missing);
+            reconstruct(covariance, prior.unwrap_or(estimator.factor()));
+        }
     }
 
     /// The state after a sample.
@@ -158,9 +222,7 @@ impl<T: Number> Outputs<T> {
             estimator.factor().variances(&mut variance[start..]);
         }
         if let Some(covariance) = &mut self.covariance {
-            let start = covariance.len();
-            covariance.resize(start + n * n, T::ZERO);
-            estimator.factor().reconstruct(&mut covariance[start..]);
+            reconstruct(covariance, estimator.factor());
         }
     }
 
@@ -175,14 +237,24 @@ impl<T: Number> Outputs<T> {
             forgetting_factor: array(py, self.forgetting_factor, &[samples])?,
             rank: array(py, self.rank, &[samples])?,
             skipped: array(py, self.skipped, &[samples])?,
+            gate: array(py, self.gate, &[samples])?,
             windup: array(py, self.windup, &[samples])?,
+            whitened_innovation: array(py, self.whitened_innovation, &single(&[samples, p, m]))?,
             variance: array(py, self.variance, &[samples, n])?,
             covariance: array(py, self.covariance, &[samples, n, n])?,
+            prior_covariance: array(py, self.prior_covariance, &[samples, n, n])?,
             samples,
             used: self.used,
             skipped_count: samples - self.used,
         })
     }
+}
+
+/// Appends the n x n numbers of P.
+fn reconstruct<T: Number>(covariances: &mut Vec<T>, factor: &Factor<Dynamic<T>>) {
+    let (start, n) = (covariances.len(), factor.parameters());
+    covariances.resize(start + n * n, T::ZERO);
+    factor.reconstruct(&mut covariances[start..]);
 }
 
 #[inline(always)]

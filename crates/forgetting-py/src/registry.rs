@@ -2,6 +2,7 @@
 
 use crate::choice::write_value;
 use forgetting::fleet::REFUSED;
+use forgetting::gates::{Answer, GATES};
 use forgetting::parameter::{Kind, Parameter};
 use forgetting::rates::RATES;
 use forgetting::rules::{Claim, RULES};
@@ -88,6 +89,21 @@ pub fn rates(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
 #[pyfunction]
 pub fn weightings(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
     WEIGHTINGS.iter().map(|a| entry(py, a.name, a.type_name, a.source, a.parameters)).collect()
+}
+
+/// Every gate: name, type_name, summary, header and parameters.
+#[pyfunction]
+pub fn gates(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
+    GATES.iter().map(|a| entry(py, a.name, a.type_name, a.source, a.parameters)).collect()
+}
+
+/// The codes of a record's `gate`: 0 is "update".
+pub fn gate_codes(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
+    let codes = PyDict::new(py);
+    for answer in Answer::ALL {
+        codes.set_item(answer.code(), answer.word())?;
+    }
+    Ok(codes)
 }
 
 /// The codes of `skipped` in the results of a record or a fleet: 0 is None.

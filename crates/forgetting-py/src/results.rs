@@ -3,6 +3,7 @@
 use crate::arrays::{shaped, with_slice, Array, Number};
 use crate::choice::{shape_of, write_choice};
 use crate::errors::{invalid, raise};
+use forgetting::gates::Gate;
 use forgetting::rates::Rate;
 use forgetting::rules::Forgetting;
 use forgetting::saved::AnyEstimator;
@@ -47,8 +48,8 @@ pub fn factor<'py, T: Number>(
     let mut dense = vec![T::ZERO; n * n];
     for j in 0..n {
         dense[j * n + j] = T::ONE;
-        for (i, &u) in factor.column(j).iter().enumerate() {
-            dense[i * n + j] = u;
+        for i in 0..j {
+            dense[i * n + j] = factor.unit(i, j);
         }
     }
     let diagonal = factor.diagonal_elements().to_vec();
@@ -79,7 +80,7 @@ pub fn watched<'py, T: Number>(
     Ok(Some(watched))
 }
 
-/// Rule, rate and weighting by name, each with its parameters.
+/// Rule, rate, weighting and gate by name, each with its parameters.
 pub fn describe<'py, T: Number>(
     py: Python<'py>,
     estimator: &AnyEstimator<T>,
@@ -98,6 +99,11 @@ pub fn describe<'py, T: Number>(
         weighting.describe(&mut |name, value| each(name, value))
     })?;
     description.set_item("weighting", of_weighting)?;
+    let gate = estimator.gate();
+    let of_gate = write_choice(py, gate.about().name, |each| {
+        gate.describe(&mut |name, value| each(name, value))
+    })?;
+    description.set_item("gate", of_gate)?;
     Ok(description)
 }
 

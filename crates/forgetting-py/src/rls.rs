@@ -61,6 +61,10 @@ pub(crate) use {either, new};
 ///     Where to forget; see `forgetting.rules()`.
 /// weighting : str or Weighting, optional
 ///     How far to trust a sample, by its innovation; see `forgetting.weightings()`.
+/// gate : str, Gate or callable, optional
+///     Whether a sample is used; see `forgetting.gates()`. A callable is shown the `Evidence` of
+///     each sample and answers "update", "freeze" (learn, but forget nothing) or "hold" (do
+///     nothing).
 /// rows : int, default 1
 ///     Measurements a sample that share one theta.
 /// targets : int, default 1
@@ -95,13 +99,14 @@ pub struct Rls {
 #[pymethods]
 impl Rls {
     #[new]
-    #[pyo3(signature = (parameters, *, rule=None, weighting=None, rows=1, targets=1,
+    #[pyo3(signature = (parameters, *, rule=None, weighting=None, gate=None, rows=1, targets=1,
         initial_covariance=None, initial_theta=None, dtype="float64", monitor=false))]
     #[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn new(
         parameters: i64,
         rule: Option<&Bound<'_, PyAny>>,
         weighting: Option<&Bound<'_, PyAny>>,
+        gate: Option<&Bound<'_, PyAny>>,
         rows: i64,
         targets: i64,
         initial_covariance: Option<&Bound<'_, PyAny>>,
@@ -111,10 +116,11 @@ impl Rls {
     ) -> PyResult<Self> {
         let sizes = [("parameters", parameters), ("rows", rows), ("targets", targets)];
         let sizes = read_sizes(sizes)?;
+        let choices = [rule, weighting, gate];
         let initial = (initial_covariance, initial_theta);
         let mut inner = match dtype {
             "float64" | "float32" => {
-                new!(dtype == f64::DTYPE, make(sizes, rule, weighting, initial)?)
+                new!(dtype == f64::DTYPE, make(sizes, choices, initial)?)
             }
             _ => {
                 return Err(invalid(format!(
@@ -200,7 +206,7 @@ impl Rls {
         either!(&self.inner, e => results::watched(py, e))
     }
 
-    /// The rule, rate and weighting by name, each with its parameters.
+    /// The rule, rate, weighting and gate by name, each with its parameters.
     fn describe<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         either!(&self.inner, e => results::describe(py, e))
     }
@@ -217,6 +223,13 @@ impl Rls {
     fn weighting<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         py.import("forgetting.choices")?
             .call_method1("weighting_from_description", (self.describe(py)?, self.dtype()))
+    }
+
+    /// The gate, as an object that would make the same one.
+    #[getter]
+    fn gate<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        py.import("forgetting.choices")?
+            .call_method1("gate_from_description", (self.describe(py)?, self.dtype()))
     }
 
     /// phi @ theta.

@@ -18,18 +18,21 @@ pub fn update<T: Number>(
 ) -> PyResult<Update> {
     let memory = estimator.prior().memory();
     let (rows, targets) = (memory.rows(), memory.targets());
+    if rows > 1 {
+        estimator.keep_innovations(true);
+    }
     if calls_python(estimator) {
         let (phi, y) = (owned("phi", phi)?, owned("y", y)?);
         let gamma = gamma.map(|gamma| owned("gamma", gamma)).transpose()?;
         let noise = gamma.as_deref().map_or(Noise::Unit, noise);
         let update = estimator.update_weighted(&phi, &y, noise).map_err(raise)?;
-        return Ok(Update::new(&update, rows, targets));
+        return Update::new(&update, rows, targets);
     }
     let mut update = |noise: Noise<'_, T>| {
         with_slice("phi", phi, |phi: &[T]| {
             with_slice("y", y, |y: &[T]| {
                 let update = estimator.update_weighted(phi, y, noise).map_err(raise)?;
-                Ok(Update::new(&update, rows, targets))
+                Update::new(&update, rows, targets)
             })
         })
     };

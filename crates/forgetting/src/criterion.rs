@@ -3,7 +3,7 @@
 use crate::factor::kernel::{add_scaled, dot};
 use crate::parameter::{Parameter, Range, Value, Values};
 use crate::sample::cholesky;
-use crate::state::{State, Visitor};
+use crate::state::{is_finite, State, Visitor};
 use crate::{Error, Factor, Memory, Real, Sample};
 
 /// Which criterion.
@@ -138,6 +138,11 @@ impl<M: Memory> State<M::Real> for Watch<M> {
         visitor.whole(&mut self.seen.samples);
         visitor.reals(core::slice::from_mut(&mut self.seen.excess));
         visitor.reals(core::slice::from_mut(&mut self.seen.usual));
+    }
+
+    fn is_sound(&self) -> bool {
+        let Seen { excess, usual, .. } = self.seen;
+        is_finite(self) && excess >= M::Real::ZERO && usual >= M::Real::ZERO
     }
 }
 

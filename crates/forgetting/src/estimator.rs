@@ -6,35 +6,20 @@
 //! correct   θ₊ = θ + R₊⁻¹ φᵀ Γ⁻¹ (y − φ θ)     θ changes here and nowhere else
 //! ```
 
-use crate::evidence::Known;
+use crate::between::Between;
 use crate::factor::kernel::{dot, Told};
 use crate::factor::Form;
-use crate::intake::{whiten, Intake, Noise};
-use crate::measure::{leverage, measure_rows};
-use crate::monitor::{Health, Monitor, Seen};
+use crate::gates::{Answer, AnyGate, Gate, Open};
+use crate::intake::{Intake, Noise};
+use crate::monitor::{Health, Monitor};
 use crate::rates::Rate;
-use crate::rules::{Forgetting, Forgotten, Skip, Step};
-use crate::state::{State, Visitor};
+use crate::rules::{Forgetting, Forgotten, Skip};
+use crate::state::{State, Visitor, MOST_SAMPLES};
+use crate::update::{Update, Whitened};
 use crate::weighting::Weighting;
-use crate::{Error, Factor, Memory, Prior, Real, Sample, Work};
+use crate::{Error, Factor, Memory, Prior, Real, Work};
 
-/// What one sample told.
-#[derive(Clone, Copy, Debug)]
-pub struct Update<'a, T> {
-    /// y − φθ with the θ of before: p x m numbers, row by row, in units of y
-    pub error: &'a [T],
-    /// tr φ̄P̄φ̄ᵀ: the variance of the prediction in units of the noise's
-    pub leverage: T,
-    /// the λ used
-    pub forgetting_factor: T,
-    /// the number of directions that lost information
-    pub rank: usize,
-    /// why the sample was left out, if it was
-    pub skipped: Option<Skip>,
-    /// whether P has wound up: as the watch says ([`Health::windup`]) if there is one, else
-    /// whether P has grown beyond [`Estimator::WINDUP`] times its first value
-    pub windup: bool,
-}
+mod steps;
 
 /// Recursive least squares with the forgetting rule `F`, the rate `R` and the weighting `W`.
 ///
@@ -67,6 +52,7 @@ where
     rule: F,
     rate: R,
     weighting: W,
+    gate: AnyGate<M>,
     prior: Prior<M>,
     factor: Factor<M>,
     theta: M::Parameters,
@@ -77,6 +63,7 @@ where
     /// what every sample does to P, if that is all that there is to do
     steady: Option<Steady<M::Real>>,
     monitor: Option<Monitor<M>>,
+    between: Between<M>,
     intake: Intake<M>,
     work: Work<M>,
 }
@@ -124,6 +111,8 @@ where
             rate_state: rate.start(memory),
             windup_limit: M::Real::from_f64(Self::WINDUP) * factor.largest(),
             monitor: None,
+            between: Between::new(),
+            gate: AnyGate::Open(Open::new()),
             intake: Intake::new(memory),
             work: Work::new(memory),
             samples: 0,
@@ -133,6 +122,16 @@ where
             prior,
             factor,
         }
+    }
+
+    /// The same estimator behind this gate.
+    #[must_use]
+    pub fn with_gate(mut self, gate: AnyGate<M>) -> Self {
+        if !gate.is_open() {
+            self.steady = None;
+        }
+        self.gate = gate;
+        self
     }
 
     /// Back to the prior, as if no sample had been seen.
@@ -156,6 +155,23 @@ where
     /// What the watch has seen, if there is one.
     pub fn health(&self) -> Option<Health<'_, M::Real>> {
         self.monitor.as_ref().map(Monitor::health)
+    }
+
+    /// Keeps, from now on or no longer, P̄ of the last sample: [`Estimator::prior_factor`].
+    /// O(n²) a sample.
+    pub fn keep_prior(&mut self, keep: bool) {
+        self.between.keep_prior(keep, &self.factor);
+    }
+
+    /// Keeps, from now on or no longer, what [`Update::whiten`] needs for samples of several rows:
+    /// O(p n²/2 + p² n) a sample. For one row it costs nothing and need not be asked for.
+    pub fn keep_innovations(&mut self, keep: bool) {
+        self.between.keep_innovations(keep, self.prior.memory());
+    }
+
+    /// P̄ of the last sample, after forgetting and before the data, if it is kept.
+    pub fn prior_factor(&self) -> Option<&Factor<M>> {
+        self.between.prior()
     }
 
     /// φθ for p x n numbers `phi`, row by row; writes p x m numbers to `prediction`.
@@ -225,7 +241,8 @@ where
         told: &mut [Told<M::Real>],
         thetas: &mut [M::Real],
     ) -> usize {
-        let Some(steady) = self.steady.filter(|_| self.monitor.is_none()) else { return 0 };
+        let watched = self.monitor.is_some() || self.between.keeps_prior();
+        let Some(steady) = self.steady.filter(|_| !watched) else { return 0 };
         let (scratch, theta) = (self.work.scratch.as_mut(), self.theta.as_mut());
         let taken = self.factor.advance(steady.form, (phi, y), scratch, theta, (told, thetas));
         self.samples += told[..taken].iter().filter(|told| told.used).count() as u64;
@@ -251,93 +268,10 @@ where
             forgetting_factor: forgotten.forgetting_factor.map_or(lambda, M::Real::from_f64),
             rank: forgotten.rank,
             skipped: (!told.used).then_some(Skip::DeadZone),
+            gate: Answer::Update,
             windup: told.largest > self.windup_limit,
+            whitened: Whitened::Row { errors: error, noise: M::Real::ONE },
         }
-    }
-
-    /// The recursion step by step.
-    #[inline(never)]
-    fn update_in_steps(
-        &mut self,
-        phi: &[M::Real],
-        y: &[M::Real],
-        noise: Noise<'_, M::Real>,
-    ) -> Result<Update<'_, M::Real>, Error> {
-        let squares = self.intake.take(self.prior.memory(), self.theta.as_ref(), phi, y)?;
-        let memory = self.prior.memory();
-        let intake = &mut self.intake;
-        let mut sample = Sample::new(memory, intake.regressors.as_mut(), intake.errors.as_mut());
-        whiten(&mut sample, noise, intake.noise.as_mut())?;
-        let unit = matches!(noise, Noise::Unit);
-        let squares = if unit { squares } else { sample.squared_regressors() };
-        let mut known = Known::of(memory, &sample, squares)?;
-        let needs = self.rate.needs().max(self.weighting.needs());
-        let (seen, buffers) =
-            (intake.seen.as_mut(), (intake.remaining.as_mut(), intake.noise.as_mut()));
-        known.find(needs, &self.factor, &sample, &mut self.work, buffers);
-        known.weigh(&self.weighting, &mut sample, seen, &self.factor, self.samples)?;
-        let evidence = known.evidence(&sample, &self.factor, seen, self.samples);
-        let lambda = self.rate.forgetting_factor(&self.rate_state, &evidence)?;
-        if !(lambda > M::Real::ZERO && lambda <= M::Real::ONE) {
-            return Err(Error::value("forgetting_factor", lambda.to_f64(), "(0, 1]"));
-        }
-        // less than the rounding unit forgets every digit all the same, and would swamp those of
-        // the directions that are kept
-        let lambda = lambda.max(M::Real::EPSILON);
-        let form = if sample.rows() == 1 { self.rule.form(lambda) } else { None };
-        let squares =
-            if unit && self.weighting.is_equal() { squares } else { sample.squared_regressors() };
-        let theta = self.theta.as_mut();
-        let (Forgotten { rank, skipped, forgetting_factor }, leverage) = match form {
-            Some(Form::Along { dead_zone, .. }) if dead_zone.holds(squares) => {
-                (Forgotten::skipped(Skip::DeadZone), leverage(&self.factor, &sample))
-            }
-            Some(form) => {
-                let (f, errors) = (sample.row(0), sample.error(0));
-                let scratch = self.work.scratch.as_mut();
-                let measured = self.factor.measure(form, (f, squares), scratch, (theta, errors))?;
-                (forgotten(form, measured.forgot, memory.parameters()), measured.leverage)
-            }
-            None => {
-                let step = Step {
-                    factor: &mut self.factor,
-                    sample: &mut sample,
-                    forgetting_factor: lambda,
-                    work: &mut self.work,
-                };
-                let forgotten = self.rule.forget(&mut self.rule_state, step)?;
-                let gain = self.work.gain.as_mut();
-                let leverage = match forgotten.skipped {
-                    Some(_) => leverage(&self.factor, &sample),
-                    None => {
-                        let remaining = &mut intake.remaining;
-                        measure_rows(&mut self.factor, &sample, gain, theta, remaining)
-                    }
-                };
-                (forgotten, leverage)
-            }
-        };
-        if skipped.is_none() {
-            let evidence = known.evidence(&sample, &self.factor, seen, self.samples);
-            self.rate.learn(&mut self.rate_state, &evidence, lambda);
-            self.samples += 1;
-        }
-        if let Some(monitor) = &mut self.monitor {
-            let squared_error = known.used_error();
-            let seen = Seen { sample: &sample, squared_error, leverage, forgetting_factor: lambda };
-            monitor.watch(&self.factor, skipped.is_none().then_some(seen));
-        }
-        Ok(Update {
-            error: self.intake.innovations.as_ref(),
-            leverage,
-            forgetting_factor: forgetting_factor.map_or(lambda, M::Real::from_f64),
-            rank,
-            skipped,
-            windup: match &self.monitor {
-                Some(monitor) => monitor.windup(),
-                None => self.factor.exceeds(self.windup_limit),
-            },
-        })
     }
 
     /// θ, m x n numbers, one target after the other.
@@ -377,14 +311,34 @@ where
         &self.weighting
     }
 
+    /// What decides whether a sample is used.
+    pub fn gate(&self) -> &AnyGate<M> {
+        &self.gate
+    }
+
     /// θ₀ and P₀.
     pub fn prior(&self) -> &Prior<M> {
         &self.prior
     }
 
-    /// Whether θ is finite and P positive definite, as after every sample.
+    /// Whether θ is finite, P positive definite, and what the rule, the rate and the watch
+    /// remember is what they can: as after every sample.
     pub fn is_sound(&self) -> bool {
-        self.theta.as_ref().iter().all(|x| x.is_finite()) && self.factor.is_sound()
+        self.theta.as_ref().iter().all(|x| x.is_finite())
+            && self.factor.is_sound()
+            && self.rule_state.is_sound()
+            && self.rate_state.is_sound()
+            && self.samples <= MOST_SAMPLES
+            && self.monitor.as_ref().is_none_or(State::is_sound)
+    }
+
+    /// [`Estimator::is_sound`] for a state that was read, of which the bound of P's trace may be
+    /// none.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn check_read(&mut self) -> bool {
+        let sound = self.is_sound();
+        self.factor.check_bound();
+        sound
     }
 
     /// Shows every number of the state to `visitor`.

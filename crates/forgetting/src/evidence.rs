@@ -1,14 +1,15 @@
-//! What is known of a sample before it is used: all that a rate or a weighting may judge by.
+//! What is known of a sample before it is used: all that a rate, a weighting or a gate may judge by.
 
-use crate::factor::kernel::{add_scaled, dot, multiply_transposed};
+use crate::gates::{Answer, AnyGate, Gate};
+use crate::innovation::whiten_errors;
 use crate::intake::{not_finite, out_of_range};
 use crate::measure::leverage;
 use crate::weighting::Weighting;
 use crate::{Error, Factor, Memory, Real, Sample, Work};
 
-/// What a rate or a weighting knows of a sample.
+/// What a rate, a weighting or a gate knows of a sample.
 ///
-/// Errors are whitened by Γ. A weighting sees them as they are. A rate sees them clipped, that
+/// Errors are whitened by Γ. A weighting and a gate see them as they are. A rate sees them clipped, that
 /// is multiplied by the weight w: an outlier that moves θ little is no reason to forget. No
 /// statistic exceeds [`Real::CEILING`].
 #[derive(Clone, Copy, Debug)]
@@ -117,10 +118,28 @@ impl<T: Real> Known<T> {
                 self.squared_error / (T::ONE + self.leverage)
             } else {
                 errors.copy_from_slice(sample.errors());
-                let sum = normalized(factor, sample, work.first.as_mut(), errors, matrix);
+                let rows = sample.regressors();
+                let sum = whiten_errors(factor, rows, work.first.as_mut(), errors, matrix);
                 mean(sum, self.targets)
             };
         }
+    }
+
+    /// What `gate` says of the sample.
+    #[inline]
+    pub fn ask<M: Memory<Real = T>>(
+        &self,
+        gate: &AnyGate<M>,
+        sample: &Sample<'_, M>,
+        factor: &Factor<M>,
+        samples: u64,
+    ) -> Result<Answer, Error> {
+        if gate.is_open() {
+            return Ok(Answer::Update);
+        }
+        let mut capped = *self;
+        capped.cap();
+        gate.answer(&capped.evidence(sample, factor, sample.errors(), samples))
     }
 
     /// Γ ← Γ/w with the weight of the sample; leaves in `seen` the errors that a rate sees, w
@@ -217,44 +236,4 @@ fn mean<T: Real>(sum: T, count: usize) -> T {
     } else {
         sum / T::from_f64(count as f64)
     }
-}
-
-/// tr eᵀ(I + S)⁻¹e for more than one row.
-///
-/// I + S = V Vᵀ with V = [I, φ̄ U √D]. Gram and Schmidt make the rows of V orthogonal and turn e
-/// along; as each keeps its own element of I, none becomes shorter than 1, however large P is.
-fn normalized<M: Memory>(
-    factor: &Factor<M>,
-    sample: &Sample<'_, M>,
-    directions: &mut [M::Real],
-    errors: &mut [M::Real],
-    identity: &mut [M::Real],
-) -> M::Real {
-    let (n, p) = (factor.parameters(), sample.rows());
-    let m = errors.len() / p;
-    identity.fill(M::Real::ZERO);
-    for (i, direction) in directions.chunks_exact_mut(n).enumerate() {
-        direction.copy_from_slice(sample.row(i));
-        multiply_transposed(factor.packed_columns(), direction);
-        for (x, &d) in direction.iter_mut().zip(factor.diagonal_elements()) {
-            *x *= d.sqrt();
-        }
-        identity[i * p + i] = M::Real::ONE;
-    }
-    let mut sum = M::Real::ZERO;
-    for i in 0..p {
-        let (v, later_v) = directions[i * n..].split_at_mut(n);
-        let (w, later_w) = identity[i * p..].split_at_mut(p);
-        let (e, later_e) = errors[i * m..].split_at_mut(m);
-        let length = dot(v, v) + dot(w, w);
-        sum += dot(e, e) / length;
-        let later = later_v.chunks_exact_mut(n).zip(later_w.chunks_exact_mut(p));
-        for ((x, y), z) in later.zip(later_e.chunks_exact_mut(m)) {
-            let overlap = (dot(v, x) + dot(w, y)) / length;
-            add_scaled(x, -overlap, v);
-            add_scaled(y, -overlap, w);
-            add_scaled(z, -overlap, e);
-        }
-    }
-    sum
 }

@@ -1,8 +1,11 @@
 //! Functions of the user's, as values of parameters.
 
-use crate::Error;
+use crate::parameter::{Parameter, Value, Values};
+use crate::rates::Evidence;
+use crate::{Error, Memory};
+use alloc::sync::Arc;
 use core::any::Any;
-use core::fmt::Debug;
+use core::fmt::{Debug, Formatter};
 
 /// A matrix that a function is given.
 #[derive(Clone, Copy)]
@@ -17,8 +20,7 @@ pub struct Argument<'a> {
 
 /// A function from matrices to a matrix, whatever language it is written in.
 ///
-/// A parameter that takes one has the value [`Value::Function`](crate::parameter::Value::Function)
-/// with an `Arc<dyn MatrixFunction>`.
+/// A parameter that takes one has the value [`Value::Function`] with an `Arc<dyn MatrixFunction>`.
 pub trait MatrixFunction: Debug + Send + Sync {
     /// Evaluates it: calls `put` with the position, row by row, and the value of each of the
     /// rows x columns elements of the result.
@@ -34,4 +36,69 @@ pub trait MatrixFunction: Debug + Send + Sync {
 
     /// The function itself, for the one who made it.
     fn as_any(&self) -> &dyn Any;
+}
+
+type Call<M, A> = dyn for<'a, 'b, 'c> Fn(&'a Evidence<'b, 'c, M>) -> Result<A, Error> + Send + Sync;
+
+/// A function that is shown the evidence of a sample and answers with an `A`.
+///
+/// A parameter that takes one has the value [`Value::Function`] with the function itself.
+pub struct EvidenceFunction<M: Memory, A: 'static> {
+    call: Arc<Call<M, A>>,
+    origin: Arc<dyn Any + Send + Sync>,
+}
+
+impl<M: Memory, A: 'static> Clone for EvidenceFunction<M, A> {
+    fn clone(&self) -> Self {
+        Self { call: Arc::clone(&self.call), origin: Arc::clone(&self.origin) }
+    }
+}
+
+impl<M: Memory, A: 'static> Debug for EvidenceFunction<M, A> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> core::fmt::Result {
+        f.write_str("Function")
+    }
+}
+
+impl<M: Memory, A: 'static> EvidenceFunction<M, A> {
+    /// Of this `function`, which reports a failure of its own as [`Error::Function`].
+    pub fn new<F>(function: F) -> Self
+    where
+        F: for<'a, 'b, 'c> Fn(&'a Evidence<'b, 'c, M>) -> Result<A, Error> + Send + Sync + 'static,
+    {
+        Self { call: Arc::new(function), origin: Arc::new(()) }
+    }
+
+    /// The same, with what the function was made from, for [`EvidenceFunction::origin`] to give
+    /// back.
+    #[must_use]
+    pub fn with_origin(self, origin: impl Any + Send + Sync) -> Self {
+        Self { origin: Arc::new(origin), ..self }
+    }
+
+    /// What the function was made from.
+    pub fn origin(&self) -> &(dyn Any + Send + Sync) {
+        &*self.origin
+    }
+
+    /// Asks it.
+    ///
+    /// # Errors
+    /// The function's.
+    #[inline]
+    pub fn ask(&self, evidence: &Evidence<'_, '_, M>) -> Result<A, Error> {
+        (self.call)(evidence)
+    }
+
+    /// The function given for `parameter` in `values`.
+    ///
+    /// # Errors
+    /// [`Error`] names the parameter when there is none.
+    pub(crate) fn given(parameter: &Parameter, values: &dyn Values) -> Result<Self, Error> {
+        match parameter.look_up(values)? {
+            Value::Function(function) => function.downcast_ref::<Self>().cloned(),
+            _ => None,
+        }
+        .ok_or(Error::value(parameter.name, f64::NAN, "a function"))
+    }
 }

@@ -43,6 +43,19 @@ pub trait Lane<T>:
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 }
 
+/// One number, in whatever form a machine works fastest with one.
+pub trait One<T>: Lane<T> {
+    /// The number itself.
+    fn get(self) -> T;
+}
+
+impl<T: Real> One<T> for T {
+    #[inline(always)]
+    fn get(self) -> T {
+        self
+    }
+}
+
 impl<T: Real> Lane<T> for T {
     type Mask = bool;
 

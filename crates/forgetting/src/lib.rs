@@ -2,7 +2,8 @@
 //!
 //! An [`Estimator`] follows the parameters θ of y = φθ + noise, sample by sample. It combines
 //! three independent choices: *where* to forget (a rule, [`rules`]), *how much* (a rate,
-//! [`rates`]) and *how far to trust* a sample (a [`weighting`] and the noise covariance Γ).
+//! [`rates`]) and *how far to trust* a sample (a [`weighting`] and the noise covariance Γ). A gate
+//! ([`gates`]) may be set before them, to say *whether* a sample is used.
 //!
 //! The covariance is kept as U D Uᵀ and nothing is ever subtracted from it, so that it stays
 //! positive definite for any input, in `f32` too. A sample that cannot be used is refused with
@@ -18,6 +19,7 @@ extern crate alloc;
 #[cfg(test)]
 extern crate std;
 
+mod between;
 mod blocks;
 pub mod criterion;
 mod directions;
@@ -31,6 +33,8 @@ pub mod factor;
 pub mod fleet;
 #[cfg(feature = "alloc")]
 pub mod function;
+pub mod gates;
+mod innovation;
 mod intake;
 mod lane;
 mod measure;
@@ -50,19 +54,20 @@ pub mod spectrum;
 pub mod state;
 #[cfg(test)]
 mod testing;
+mod update;
 pub mod vector;
 pub mod weighting;
 mod work;
 
 pub use blocks::Blocks;
 pub use error::Error;
-pub use estimator::{Estimator, Update};
+pub use estimator::Estimator;
 pub use evidence::{Evidence, Needs};
 #[cfg(feature = "alloc")]
 pub use excitation::Excitation;
 pub use factor::Factor;
 pub use intake::Noise;
-pub use lane::Lane;
+pub use lane::{Lane, One};
 #[cfg(feature = "alloc")]
 pub use memory::{Aligned, Dynamic};
 pub use memory::{Buffer, Fixed, Grid, Memory, Packed, Size};
@@ -73,5 +78,6 @@ pub use real::{Kernel, Real};
 pub use root::Root;
 pub use rules::{Exponential, ExponentialResetting, Forgetting, NoForgetting, Skip, Subspace};
 pub use sample::Sample;
+pub use update::Update;
 pub use weighting::{Equal, Weighting};
 pub use work::Work;

@@ -3,7 +3,7 @@
 //!
 //! The algorithms see slices only, so that both give the same bits.
 
-use crate::factor::kernel::{length, set_identity, SCRATCH};
+use crate::factor::kernel::{most, set_identity, SCRATCH};
 use crate::Real;
 use core::fmt::Debug;
 use core::marker::PhantomData;
@@ -24,7 +24,7 @@ pub trait Memory: Copy + Debug + Send + Sync + 'static {
     type Real: Real;
     /// n numbers
     type Vector: Buffer<Self::Real>;
-    /// the columns of U: [`length`](crate::factor::kernel::length) of n numbers
+    /// the columns of U: at least [`capacity`](crate::factor::kernel::capacity) of n numbers
     type Packed: Buffer<Self::Real>;
     /// n x n numbers
     type Square: Buffer<Self::Real>;
@@ -90,7 +90,7 @@ impl<T, const A: usize, const B: usize> AsMut<[T]> for Grid<T, A, B> {
 
 /// A number of parameters for which the packed triangle has a type (1 to 32).
 pub trait Packed<T> {
-    /// [`length`] of n numbers
+    /// [`most`] of n numbers
     type Triangle: Buffer<T>;
     /// U = I
     fn triangle() -> Self::Triangle;
@@ -103,9 +103,9 @@ pub struct Size<const N: usize>;
 macro_rules! packed {
     ($($n:literal)*) => {$(
         impl<T: Real> Packed<T> for Size<$n> {
-            type Triangle = [T; length($n)];
+            type Triangle = [T; most($n)];
             fn triangle() -> Self::Triangle {
-                let mut triangle = [T::ZERO; length($n)];
+                let mut triangle = [T::ZERO; most($n)];
                 set_identity(&mut triangle, $n);
                 triangle
             }
@@ -194,7 +194,8 @@ pub use dynamic::{Aligned, Dynamic};
 
 #[cfg(feature = "alloc")]
 mod dynamic {
-    use super::{length, set_identity, Memory, PhantomData, SCRATCH};
+    use super::{set_identity, Memory, PhantomData, SCRATCH};
+    use crate::factor::kernel::capacity;
     use crate::{Error, Real};
     use alloc::{vec, vec::Vec};
 
@@ -304,7 +305,7 @@ mod dynamic {
             Aligned::zeros(self.parameters)
         }
         fn packed(&self) -> Aligned<T> {
-            let mut columns = Aligned::zeros(length(self.parameters));
+            let mut columns = Aligned::zeros(capacity::<T>(self.parameters));
             set_identity(columns.as_mut(), self.parameters);
             columns
         }

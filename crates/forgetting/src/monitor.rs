@@ -15,7 +15,7 @@
 //! that what costs O(n²) is spread over as many samples.
 
 use crate::factor::kernel::dot;
-use crate::state::{State, Visitor};
+use crate::state::{is_finite, State, Visitor};
 use crate::{Factor, Memory, Real, Sample};
 
 /// Growth of the variance of a silent direction that counts as windup.
@@ -255,6 +255,18 @@ impl<M: Memory> State<M::Real> for Monitor<M> {
         for count in [&mut self.in_block, &mut self.samples, &mut self.informed] {
             visitor.whole(count);
         }
+    }
+
+    fn is_sound(&self) -> bool {
+        let (zero, one) = (M::Real::ZERO, M::Real::ONE);
+        let direction = self.direction.as_ref();
+        let numbers = [self.weight, self.squares];
+        let parts = [self.variances.as_ref(), self.silence.as_ref(), &self.information, &numbers];
+        is_finite(self)
+            && parts.iter().all(|part| part.iter().all(|&x| x >= zero))
+            && [self.variance, self.reference, self.length].iter().all(|&x| x > zero)
+            && (dot(direction, direction) - one).abs() <= M::Real::from_f64(1e-3)
+            && self.informed <= self.samples
     }
 }
 

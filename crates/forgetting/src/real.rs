@@ -55,6 +55,8 @@ pub trait Real:
     const CEILING: Self;
     /// Smallest diagonal element that D may take: the reciprocal of [`Real::CEILING`].
     const FLOOR: Self;
+    /// Numbers of a vector: 8 or 16.
+    const ROWS: usize;
     /// Bytes of one number in a saved state.
     const BYTES: usize;
 
@@ -83,6 +85,8 @@ pub trait Real:
         kernel.run::<Self::Lanes, 2>()
     }
 
+    /// At most [`Real::ROWS`] numbers, and zeros.
+    fn chunk(numbers: &[Self]) -> Self::Chunk;
     /// `numbers` as chunks, and what is left.
     fn chunks(numbers: &[Self]) -> (&[Self::Chunk], &[Self]);
     /// The same, to be written.
@@ -119,8 +123,15 @@ macro_rules! real {
             const EPSILON: Self = $float::EPSILON;
             const CEILING: Self = $ceiling;
             const FLOOR: Self = $floor;
+            const ROWS: usize = $lanes;
             const BYTES: usize = core::mem::size_of::<$float>();
 
+            #[inline(always)]
+            fn chunk(numbers: &[Self]) -> Self::Chunk {
+                let mut chunk = [0.0; $lanes];
+                chunk[..numbers.len()].copy_from_slice(numbers);
+                chunk
+            }
             #[inline(always)]
             fn chunks(numbers: &[Self]) -> (&[Self::Chunk], &[Self]) {
                 numbers.as_chunks()

@@ -12,13 +12,28 @@ pub struct Sample<'a, M: Memory> {
     rows: usize,
     regressors: &'a mut [M::Real],
     errors: &'a mut [M::Real],
+    scaled: M::Real,
 }
 
 impl<'a, M: Memory> Sample<'a, M> {
     /// The sample of `memory.rows()` rows in these two buffers.
     #[inline]
     pub fn new(memory: M, regressors: &'a mut [M::Real], errors: &'a mut [M::Real]) -> Self {
-        Self { memory, rows: memory.rows(), regressors, errors }
+        Self { memory, rows: memory.rows(), regressors, errors, scaled: M::Real::ONE }
+    }
+
+    /// What the sample was multiplied with by [`Sample::scale`], in all.
+    #[inline]
+    pub(crate) fn scaled(&self) -> M::Real {
+        self.scaled
+    }
+
+    /// Takes back into use the rows that were dropped, if all were.
+    #[inline]
+    pub(crate) fn restore(&mut self) {
+        if self.rows == 0 {
+            self.rows = self.memory.rows();
+        }
     }
 
     /// The sizes it was made for.
@@ -88,6 +103,7 @@ impl<'a, M: Memory> Sample<'a, M> {
         for x in self.regressors.iter_mut().chain(self.errors.iter_mut()) {
             *x *= c;
         }
+        self.scaled *= c;
     }
 
     /// Whitens the sample by the p x p matrix `gamma` = L Lᵀ: φ̄ = L⁻¹φ, ē = L⁻¹e.

@@ -8,12 +8,15 @@
 //! | sizes | n, p, m as 32-bit numbers |
 //! | form of P₀ | one byte |
 //! | watched | one byte, 0 or 1 |
-//! | rule, rate, weighting | each a name and its parameters by name; a rule may be a parameter |
+//! | rule, rate, weighting, gate | each a name and its parameters by name; a rule may be a parameter |
 //! | numbers | the prior, then the state, in the order of `visit` |
 //! | check | CRC-32 of all before it |
 //!
 //! All numbers are little-endian. Numbers of the state are kept bit for bit.
+//!
+//! Version 1 had no gate; it is read as open.
 
+use crate::gates::{AnyGate, Gate, Open};
 use crate::parameter::{Value, Values};
 use crate::rates::{AnyRate, Rate};
 use crate::rules::{Forgetting, Rule};
@@ -28,10 +31,10 @@ mod write;
 pub(crate) use write::choice as write_choice;
 
 /// The version of the format that is written, and the latest that is read.
-pub const VERSION: u8 = 1;
+pub const VERSION: u8 = 2;
 const MARK: &[u8; 5] = b"FGRLS";
 
-/// An estimator of any size, rule, rate and weighting, chosen at run time.
+/// An estimator of any size, rule, rate, weighting and gate, chosen at run time.
 pub type AnyEstimator<T> =
     Estimator<Rule<Dynamic<T>>, AnyRate<Dynamic<T>>, AnyWeighting<Dynamic<T>>, Dynamic<T>>;
 
@@ -60,10 +63,10 @@ impl<T: Real> AnyEstimator<T> {
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
         let body = checked(bytes)?;
         let mut reader = read::Reader::new(&body[MARK.len() + 1..]);
-        let mut estimator = read::header::<T>(&mut reader)?;
+        let mut estimator = read::header::<T>(&mut reader, body[MARK.len()])?;
         estimator.visit(&mut reader);
         reader.finish()?;
-        if estimator.is_sound() {
+        if estimator.check_read() {
             Ok(estimator)
         } else {
             Err(Error::State { reason: "its numbers are not those of an estimator" })

@@ -1,6 +1,6 @@
 //! Neighbouring numbers that go through the same operations together.
 
-use crate::{Lane, Real};
+use crate::{Lane, One, Real};
 use core::array;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -9,6 +9,8 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 /// A number type has one for every set of instructions that it may run on; all give the same
 /// bits.
 pub trait Vector<T: Real>: Lane<T> {
+    /// A single number, as this set of instructions works fastest with one.
+    type One: One<T>;
     /// What the streams of a fleet run in.
     type Abreast: Abreast<T>;
 
@@ -148,6 +150,7 @@ impl<T: Real, const L: usize> Lane<T> for Lanes<T, L> {
 
 impl<T: Real<Chunk = [T; L]>, const L: usize> Vector<T> for Lanes<T, L> {
     type Abreast = T;
+    type One = T;
 
     #[inline(always)]
     fn load(chunk: &[T; L]) -> Self {

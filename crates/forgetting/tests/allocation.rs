@@ -1,5 +1,6 @@
 //! An update allocates nothing, whatever the rule.
 
+use forgetting::gates::{AnyGate, GATES};
 use forgetting::parameter::Defaults;
 use forgetting::rates::{AnyRate, RATES};
 use forgetting::rules::{Rule, RULES};
@@ -84,5 +85,31 @@ fn no_rate_and_no_weighting_allocates() {
             });
             assert_eq!(count, 0, "{:?}", estimator.rate());
         }
+    }
+}
+
+#[test]
+fn no_gate_and_nothing_that_is_kept_allocates() {
+    let memory = Dynamic::<f64>::new(4, 2, 3).unwrap();
+    for about in GATES {
+        let Ok(gate) = AnyGate::named(about.name, &Defaults, memory) else {
+            continue; // one that is made from a function of the user's
+        };
+        let rule = Rule::named("subspace", &Defaults, memory).unwrap();
+        let rate = AnyRate::named("constant", &Defaults, memory).unwrap();
+        let prior = Prior::scalar(memory, 10.0).unwrap();
+        let mut estimator = Estimator::new(rule, rate, Equal::new(), prior).with_gate(gate);
+        estimator.watch();
+        estimator.keep_prior(true);
+        estimator.keep_innovations(true);
+        let mut whitened = [0.0; 6];
+        let count = allocations(|| {
+            for k in 0..150 {
+                let phi: [f64; 8] = std::array::from_fn(|i| ((k * 8 + i) as f64).sin());
+                let update = estimator.update(&phi, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]).unwrap();
+                update.whiten(&mut whitened).unwrap();
+            }
+        });
+        assert_eq!(count, 0, "{}", about.name);
     }
 }

@@ -209,7 +209,7 @@ fn replaces<T: Real>(case: &Case) {
 
     // two blocks, each with the triangle of the first
     let half = n / 2;
-    let columns = start.packed_columns()[..kernel::length(half)].to_vec();
+    let columns = start.packed_columns()[..kernel::length::<T>(half)].to_vec();
     let diagonal = start.diagonal_elements()[..half].to_vec();
     factor.clear_columns();
     factor.put_block(0, &columns, &diagonal);

@@ -10,7 +10,7 @@ import numpy as np
 
 from forgetting.cli import options
 from forgetting.cli.progress import progress_bar
-from forgetting.cli.rulebook import make_rule
+from forgetting.cli.rulebook import make_gate, make_rule
 from forgetting.cli.tables import print_identification, print_written
 from forgetting.record.errors import RecordError
 from forgetting.record.identification import Identification
@@ -27,6 +27,7 @@ def identify(
     forgetting_factor: options.ForgettingFactor = None,
     threshold: options.Threshold = None,
     settings: options.Settings = None,
+    gate: options.GateText = None,
     initial_covariance: options.InitialCovariance = "100",
     dtype: options.Dtype = "float64",
     report: options.Report = None,
@@ -45,7 +46,7 @@ def identify(
     check_targets(report, estimates, plot)
     if dtype not in ("float64", "float32"):
         raise RecordError(f"--dtype is {dtype!r}; it must be float64 or float32")
-    chosen = make_rule(rule, forgetting_factor, threshold, settings or [])
+    chosen, before = make_rule(rule, forgetting_factor, threshold, settings or []), make_gate(gate)
     with progress_bar(f"identifying {record.name}") as progress:
         found = identify_record(
             record,
@@ -54,6 +55,7 @@ def identify(
             input=input or (),
             arx=None if arx is None else parse_orders(arx),
             rule=chosen,
+            gate=before,
             initial_covariance=parse_covariance(initial_covariance),
             dtype=dtype,
             time=time,

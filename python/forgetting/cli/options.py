@@ -71,6 +71,16 @@ Settings = Annotated[
         metavar="NAME=VALUE",
     ),
 ]
+GateText = Annotated[
+    str | None,
+    option(
+        RULE,
+        "Whether a sample is used: minimum_information, dead_zone; with parameters as in "
+        "dead_zone:width=2,otherwise=freeze.",
+        "--gate",
+        metavar="NAME[:NAME=VALUE,...]",
+    ),
+]
 InitialCovariance = Annotated[
     str,
     option(

@@ -1,4 +1,4 @@
-"""From option texts to a forgetting rule."""
+"""From option texts to a forgetting rule and a gate."""
 
 from __future__ import annotations
 
@@ -34,6 +34,24 @@ def make_rule(
     return fg.rule(name, **parameters)
 
 
+def make_gate(text: str | None) -> Any:
+    """Make the gate that ``name:parameter=value,...`` says; None for none."""
+    if text is None:
+        return None
+    name, _, settings = text.partition(":")
+    known = {entry["name"]: entry["parameters"] for entry in fg.gates()}
+    usable = [key for key, own in known.items() if all(p["kind"] != "function" for p in own)]
+    if name not in usable:
+        raise RecordError(f"there is no gate {name!r}{suggestion(usable, name, 'the gates are')}")
+    pairs = [parse(setting, "--gate") for setting in settings.split(",") if settings]
+    allowed = [parameter["name"] for parameter in known[name]]
+    for key, _ in pairs:
+        if key not in allowed:
+            has = f"it has {', '.join(allowed)}" if allowed else "it has none"
+            raise RecordError(f"the gate {name!r} has no parameter {key!r}; {has}")
+    return fg.gate(name, **dict(pairs))
+
+
 def about(name: str) -> Mapping[str, Any]:
     """What the registry says of a rule."""
     known: dict[str, Mapping[str, Any]] = {each["name"]: each for each in fg.rules()}
@@ -49,11 +67,11 @@ def parameter_names(name: str) -> list[str]:
     return ["forgetting_factor", *own] if entry["forgetting_factor"] else own
 
 
-def parse(setting: str) -> tuple[str, Any]:
+def parse(setting: str, option: str = "--set") -> tuple[str, Any]:
     """Read ``name=value``; a value may be a number, numbers with commas, or a word."""
     key, equals, text = setting.partition("=")
     if not equals or not key.strip() or not text.strip():
-        raise RecordError(f"--set takes name=value, but got {setting!r}")
+        raise RecordError(f"{option} takes name=value, but got {setting!r}")
     return key.strip().replace("-", "_"), value_of(text.strip())
 
 

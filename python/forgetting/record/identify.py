@@ -29,6 +29,7 @@ def identify(
     input: str | Sequence[str] = (),
     arx: Sequence[int] | None = None,
     rule: Any = "subspace",
+    gate: Any = None,
     initial_covariance: ArrayLike = 100.0,
     dtype: str = "float64",
     time: str | None = None,
@@ -48,6 +49,8 @@ def identify(
         Orders na, nb, nk of the ARX model.
     rule : str or Rule
         Forgetting rule.
+    gate : str, Gate or callable, optional
+        Whether a sample is used; see `forgetting.gates`.
     initial_covariance : float or array_like
         P before the first sample: scalar, (n,) diagonal or (n, n), in units of 1/regressor².
     dtype : str
@@ -89,6 +92,7 @@ def identify(
     estimator = fg.RLS(
         samples.phi.shape[1],
         rule=rule,
+        gate=gate,
         targets=samples.y.shape[1],
         initial_covariance=initial_covariance,
         dtype=dtype,

@@ -20,7 +20,9 @@ Progress = Callable[[int, int], None]
 CHUNKS = 1000
 """Pieces a record is run in; the eigenvalues of P are taken after each, so at most this often."""
 
-USED, DEAD_ZONE, MISSING = 0, 1, 2
+CODES = {reason: code for code, reason in fg.SKIPPED.items()}
+USED, DEAD_ZONE, MISSING = CODES[None], CODES["dead_zone"], CODES["missing"]
+WITHIN_BOUND, GATE = CODES["within_bound"], CODES["gate"]
 HISTORY = ("theta", "error", "forgetting_factor", "leverage", "skipped", "windup", "variance")
 
 
@@ -37,7 +39,7 @@ class Trace:
     forgetting_factor, leverage : ndarray, shape (T,)
         Rate of each sample, and phi P phi' with P after forgetting and before measuring.
     skipped : ndarray of uint8, shape (T,)
-        0 used, 1 dead zone (too little excitation), 2 missing.
+        0 where the sample was used, else the code of the reason, see `forgetting.SKIPPED`.
     windup : ndarray of bool, shape (T,)
         Whether the estimator reported windup.
     variance : ndarray, shape (T, n)

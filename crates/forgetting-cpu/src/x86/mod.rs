@@ -31,6 +31,11 @@ impl Vectors for Fused<f32> {
     type Wide = Wide<__m512>;
 }
 
+/// One number, in every lane of a register of 128 bits: the compiler would pair single numbers
+/// with their neighbours, which costs more steps than it saves where each waits for the one before.
+#[derive(Clone, Copy, Debug)]
+pub struct Same<R>(R);
+
 /// The address of the numbers of an array.
 macro_rules! at {
     ($array:expr, $float:ty, $offset:expr) => {
@@ -87,6 +92,7 @@ unsafe fn masks32(count: usize) -> __m256i {
 
 impl Vector<Fused<f64>> for Wide<__m512d> {
     type Abreast = Self;
+    type One = Same<__m128d>;
 
     #[inline(always)]
     fn load(chunk: &[Fused<f64>; 8]) -> Self {
@@ -121,8 +127,27 @@ impl Vector<Fused<f64>> for Wide<__m512d> {
     }
 }
 
+/// The sums of four vectors: what `sum` does to each, side by side.
+///
+/// # Safety
+/// The machine has AVX.
+#[inline(always)]
+unsafe fn sums_of_four(vectors: &[Pair<__m256d>; 4]) -> [Fused<f64>; 4] {
+    let mut sums = [Fused(0.0); 4];
+    // SAFETY: the instructions by the caller's promise; `Fused` has the layout of its number
+    unsafe {
+        let [a, b, c, d] = vectors.map(|Pair(low, high)| _mm256_add_pd(low, high));
+        let (ab, cd) = (_mm256_hadd_pd(a, b), _mm256_hadd_pd(c, d));
+        let low = _mm256_permute2f128_pd::<0x20>(ab, cd);
+        let high = _mm256_permute2f128_pd::<0x31>(ab, cd);
+        _mm256_storeu_pd(at_mut!(sums, f64, 0), _mm256_add_pd(low, high));
+    }
+    sums
+}
+
 impl Vector<Fused<f64>> for Pair<__m256d> {
     type Abreast = Single<__m256d>;
+    type One = Same<__m128d>;
 
     #[inline(always)]
     fn load(chunk: &[Fused<f64>; 8]) -> Self {
@@ -171,10 +196,24 @@ impl Vector<Fused<f64>> for Pair<__m256d> {
             Fused(_mm_cvtsd_f64(_mm_add_sd(pairs, _mm_unpackhi_pd(pairs, pairs))))
         }
     }
+    #[inline(always)]
+    fn sums<const C: usize>(vectors: [Self; C]) -> [Fused<f64>; C] {
+        let mut sums = [Fused(0.0); C];
+        let (fours, rest) = vectors.as_chunks::<4>();
+        let (sums_of_fours, sums_of_rest) = sums.as_chunks_mut::<4>();
+        for (sums, four) in sums_of_fours.iter_mut().zip(fours) {
+            *sums = unsafe { sums_of_four(four) };
+        }
+        for (sum, vector) in sums_of_rest.iter_mut().zip(rest) {
+            *sum = vector.sum();
+        }
+        sums
+    }
 }
 
 impl Vector<Fused<f32>> for Wide<__m512> {
     type Abreast = Self;
+    type One = Same<__m128>;
 
     #[inline(always)]
     fn load(chunk: &[Fused<f32>; 16]) -> Self {
@@ -212,6 +251,7 @@ impl Vector<Fused<f32>> for Wide<__m512> {
 
 impl Vector<Fused<f32>> for Pair<__m256> {
     type Abreast = Single<__m256>;
+    type One = Same<__m128>;
 
     #[inline(always)]
     fn load(chunk: &[Fused<f32>; 16]) -> Self {

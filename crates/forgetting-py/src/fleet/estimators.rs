@@ -6,6 +6,9 @@ use forgetting::fleet::{Samples, Told, REFUSED};
 use forgetting::saved::AnyEstimator;
 use forgetting::{Error, Skip};
 
+/// How much more a number of the state costs here than in a block of lanes.
+pub const EFFORT: usize = 8;
+
 /// Takes a sample for each stream; returns how many used it. See
 /// [`Part::update`](forgetting::fleet::Part::update).
 pub fn update<T: Number>(

@@ -17,6 +17,7 @@ use pyo3::types::PyString;
 pub struct Arguments<'a, 'py> {
     pub rule: Option<Array<'a, 'py>>,
     pub weighting: Option<Array<'a, 'py>>,
+    pub gate: Option<Array<'a, 'py>>,
     pub forgetting_factor: Option<Array<'a, 'py>>,
     pub initial_covariance: Option<Array<'a, 'py>>,
     pub initial_theta: Option<Array<'a, 'py>>,
@@ -52,7 +53,8 @@ pub fn fleet<T: Number>(
     let (factor, factors) =
         split::<T>("forgetting_factor", given.forgetting_factor, &[&[]], &[&[count]])?;
     let factor = factor.map(|factor| owned::<T>("forgetting_factor", factor)).transpose()?;
-    let mut fresh = make::<T>(sizes, given.rule, given.weighting, (covariance, theta))?;
+    let mut fresh =
+        make::<T>(sizes, [given.rule, given.weighting, given.gate], (covariance, theta))?;
     check_callables(&fresh)?;
     if given.forgetting_factor.is_some() {
         check_factor(given.rule, &fresh)?;
@@ -136,8 +138,8 @@ fn prior<T: Number>(
 pub fn check_callables<T: Number>(fresh: &AnyEstimator<T>) -> PyResult<()> {
     if calls_python(fresh) {
         return Err(invalid(
-            "a fleet takes no function of yours as a rule or a rate: it would be called for each \
-             stream and sample; use one RLS a stream",
+            "a fleet takes no function of yours as a rule, a rate or a gate: it would be called for \
+             each stream and sample; use one RLS a stream",
         ));
     }
     Ok(())

@@ -2,6 +2,7 @@
 
 mod estimators;
 mod make;
+mod parallel;
 mod streams;
 mod update;
 
@@ -61,6 +62,8 @@ macro_rules! both {
 ///     In place of that of the rule: for all streams, or one a stream; in (0, 1].
 /// weighting : str or Weighting, optional
 ///     How far to trust a sample, by its innovation; see `forgetting.weightings()`.
+/// gate : str or Gate, optional
+///     Which samples to learn from; see `forgetting.gates()`.
 /// initial_covariance : float, (n,), (n, n), (count, n) or (count, n, n) array, default 100.0
 ///     P before the first sample, positive definite, in units of 1/phi**2: for all streams, or
 ///     one a stream. An (n, n) array is one matrix for all, also when count is n.
@@ -68,6 +71,9 @@ macro_rules! both {
 ///     Estimate before the first sample, for all streams or one a stream; 0 if not given.
 /// dtype : {"float64", "float32"}
 ///     Type of all numbers.
+/// threads : int, optional
+///     Cores that an update runs on; if not given, all where that is faster than one. The result
+///     does not depend on it.
 ///
 /// Raises
 /// ------
@@ -90,13 +96,15 @@ macro_rules! both {
 #[pyclass(name = "Fleet", module = "forgetting")]
 pub struct Fleet {
     inner: Inner,
+    /// None for what suits the machine
+    threads: Option<usize>,
 }
 
 #[pymethods]
 impl Fleet {
     #[new]
     #[pyo3(signature = (count, parameters, *, rule=None, forgetting_factor=None, weighting=None,
-        initial_covariance=None, initial_theta=None, dtype="float64"))]
+        gate=None, initial_covariance=None, initial_theta=None, dtype="float64", threads=None))]
     #[allow(clippy::too_many_arguments, reason = "Python's keywords")]
     fn new(
         count: i64,
@@ -104,9 +112,11 @@ impl Fleet {
         rule: Option<&Bound<'_, PyAny>>,
         forgetting_factor: Option<&Bound<'_, PyAny>>,
         weighting: Option<&Bound<'_, PyAny>>,
+        gate: Option<&Bound<'_, PyAny>>,
         initial_covariance: Option<&Bound<'_, PyAny>>,
         initial_theta: Option<&Bound<'_, PyAny>>,
         dtype: &str,
+        threads: Option<i64>,
     ) -> PyResult<Self> {
         let count = read_count(count)?;
         let double = match dtype {
@@ -117,9 +127,16 @@ impl Fleet {
                 return Err(invalid(format!("dtype = {dtype:?}, allowed: {allowed}")));
             }
         };
-        let given =
-            Arguments { rule, weighting, forgetting_factor, initial_covariance, initial_theta };
-        Ok(Self { inner: new!(double, make::fleet(count, parameters, &given)?) })
+        let given = Arguments {
+            rule,
+            weighting,
+            gate,
+            forgetting_factor,
+            initial_covariance,
+            initial_theta,
+        };
+        let threads = read_threads(threads)?;
+        Ok(Self { inner: new!(double, make::fleet(count, parameters, &given)?), threads })
     }
 
     /// Number of streams.
@@ -136,6 +153,18 @@ impl Fleet {
     #[getter]
     fn parameters(&self) -> usize {
         either!(&self.inner, s => s.parameters())
+    }
+
+    /// Cores that an update runs on; None for all where that is faster.
+    #[getter]
+    fn threads(&self) -> Option<usize> {
+        self.threads
+    }
+
+    #[setter]
+    fn set_threads(&mut self, threads: Option<i64>) -> PyResult<()> {
+        self.threads = read_threads(threads)?;
+        Ok(())
     }
 
     /// Name of the number type.
@@ -256,7 +285,8 @@ impl Fleet {
         outputs: Option<Vec<String>>,
     ) -> PyResult<FleetUpdate> {
         let outputs = outputs.unwrap_or_else(|| DEFAULT_OUTPUTS.map(String::from).to_vec());
-        either!(&mut self.inner, s => update::update(py, s, (phi, y, mask), &outputs))
+        let threads = self.threads;
+        either!(&mut self.inner, s => update::update(py, s, (phi, y, mask), &outputs, threads))
     }
 
     /// Add streams after the last.
@@ -322,7 +352,7 @@ impl Fleet {
     #[staticmethod]
     fn _of_states(fresh: &[u8], states: Vec<Bound<'_, PyBytes>>) -> PyResult<Self> {
         let double = number_type(fresh).map_err(raise)? == 8;
-        Ok(Self { inner: new!(double, restore(fresh, &states)?) })
+        Ok(Self { inner: new!(double, restore(fresh, &states)?), threads: None })
     }
 
     /// A copy of the stream at `index`, as an estimator that goes on from there.
@@ -355,7 +385,7 @@ impl Fleet {
     }
 
     fn __copy__(&self) -> Self {
-        Self { inner: self.inner.clone() }
+        Self { inner: self.inner.clone(), threads: self.threads }
     }
 
     fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> Self {
@@ -388,6 +418,16 @@ impl Fleet {
             (0..others.len()).try_for_each(|i| s.put(first + i, others.get(i)))
         })
         .unwrap_or_else(|| Err(invalid("a stream has the dtype of its fleet")))
+    }
+}
+
+fn read_threads(threads: Option<i64>) -> PyResult<Option<usize>> {
+    const MOST: i64 = 1024;
+    match threads {
+        Some(threads) if !(1..=MOST).contains(&threads) => {
+            Err(invalid(format!("threads = {threads}, allowed: whole numbers from 1 to {MOST}")))
+        }
+        threads => Ok(threads.map(|threads| threads as usize)),
     }
 }
 

@@ -1,10 +1,10 @@
 //! The streams of a fleet: in blocks of lanes where the rule has a form for it, else an estimator
 //! each.
 
-use super::estimators;
+use super::{estimators, parallel};
 use crate::arrays::Number;
 use crate::errors::raise;
-use forgetting::fleet::{check_kind, Fleet, Samples, Told};
+use forgetting::fleet::{check_kind, Fleet, Part, Samples, Told};
 use forgetting::rates::{AnyRate, Constant, Rate};
 use forgetting::saved::AnyEstimator;
 use forgetting::{Dynamic, Error, Estimator, Memory, Prior};
@@ -96,15 +96,36 @@ impl<T: Number> Streams<T> {
         }
     }
 
-    /// Takes a sample for each stream; returns how many used it.
+    /// Takes a sample for each stream, on as many cores as `threads` says; returns how many
+    /// streams used it.
+    ///
+    /// # Errors
+    /// [`Error::Memory`] when there is none for so many threads.
     pub fn update(
         &mut self,
         samples: Samples<'_, T>,
-        mut told: Told<'_, T>,
+        told: Told<'_, T>,
+        threads: Option<usize>,
     ) -> Result<usize, Error> {
+        let (count, n) = (self.len(), self.parameters());
         match self {
-            Self::Blocks(fleet) => fleet.update(samples, told),
-            Self::Estimators { each, .. } => Ok(estimators::update(each, samples, &mut told)),
+            Self::Blocks(fleet) => {
+                let parts = fleet.parts(parallel::parts(threads, count * n * (n + 3) / 2))?;
+                let parts = parts.map(|part| (part.count(), part));
+                let work =
+                    |mut part: Part<'_, T>, samples: Samples<'_, T>, mut told: Told<'_, T>| {
+                        part.update(samples, &mut told)
+                    };
+                Ok(parallel::sum(parts, n, (samples, told), work))
+            }
+            Self::Estimators { each, .. } => {
+                let parts = parallel::parts(threads, count * n * (n + 3) * estimators::EFFORT);
+                let parts = each.chunks_mut(count.div_ceil(parts).max(1));
+                let parts = parts.map(|part| (part.len(), part));
+                Ok(parallel::sum(parts, n, (samples, told), |part, samples, mut told| {
+                    estimators::update(part, samples, &mut told)
+                }))
+            }
         }
     }
 
@@ -208,5 +229,6 @@ pub fn like<T: Number>(
         Some(factor) => AnyRate::Constant(Constant::new(factor)?),
         None => fresh.rate().clone(),
     };
-    Ok(Estimator::new(fresh.rule().clone(), rate, fresh.weighting().clone(), prior))
+    let (rule, weighting) = (fresh.rule().clone(), fresh.weighting().clone());
+    Ok(Estimator::new(rule, rate, weighting, prior).with_gate(fresh.gate().clone()))
 }

@@ -46,6 +46,7 @@ pub fn update<T: Number>(
     streams: &mut Streams<T>,
     (phi, y, mask): (Array<'_, '_>, Array<'_, '_>, Option<Array<'_, '_>>),
     outputs: &[String],
+    threads: Option<usize>,
 ) -> PyResult<FleetUpdate> {
     let count = streams.len();
     if let Some(name) = outputs.iter().find(|name| !ALL_OUTPUTS.contains(&name.as_str())) {
@@ -66,7 +67,7 @@ pub fn update<T: Number>(
     };
     let (phi, y) = (T::wrap(phi.as_slice()?), T::wrap(y.as_slice()?));
     let samples = Samples { phi, y, mask: mask.as_deref() };
-    let used = py.detach(|| streams.update(samples, told)).map_err(raise)?;
+    let used = py.detach(|| streams.update(samples, told, threads)).map_err(raise)?;
     let array = |numbers: Option<Vec<T>>| {
         numbers.map(|numbers| shaped(py, numbers, &[count]).map(Bound::unbind)).transpose()
     };

@@ -16,8 +16,10 @@ impl<M: Memory> Factor<M> {
     pub fn put_block(&mut self, start: usize, columns: &[M::Real], diagonal: &[M::Real]) {
         self.diagonal.as_mut()[start..start + diagonal.len()].copy_from_slice(diagonal);
         for j in 0..diagonal.len() {
-            let column = &mut kernel::column_mut(self.columns.as_mut(), start + j)[start..];
-            column.copy_from_slice(kernel::column(columns, j));
+            for i in 0..j {
+                let u = columns[kernel::place::<M::Real>(i, j)];
+                self.columns.as_mut()[kernel::place::<M::Real>(start + i, start + j)] = u;
+            }
         }
     }
 }

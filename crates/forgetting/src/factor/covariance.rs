@@ -55,7 +55,8 @@ impl<M: Memory> Factor<M> {
     pub fn scale_each(&mut self, scale: &[M::Real]) {
         for (j, (&s, d)) in scale.iter().zip(self.diagonal.as_mut()).enumerate() {
             *d = (*d * s * s).max(M::Real::FLOOR);
-            for (u, &t) in kernel::column_mut(self.columns.as_mut(), j).iter_mut().zip(scale) {
+            for (i, &t) in scale[..j].iter().enumerate() {
+                let u = &mut self.columns.as_mut()[kernel::place::<M::Real>(i, j)];
                 *u = *u * t / s;
             }
         }

@@ -47,9 +47,8 @@ impl<M: Memory> Factor<M> {
         }
         for j in 0..n {
             self.diagonal.as_mut()[j] = covariance[j * n + j].max(M::Real::FLOOR);
-            let column = kernel::column_mut(self.columns.as_mut(), j);
-            for (i, u) in column.iter_mut().enumerate() {
-                *u = covariance[i * n + j];
+            for i in 0..j {
+                self.columns.as_mut()[kernel::place::<M::Real>(i, j)] = covariance[i * n + j];
             }
         }
         self.trace_bound = trace;
@@ -83,8 +82,7 @@ impl<M: Memory> Factor<M> {
         for i in 0..n {
             let d = M::Real::ONE / information[i * n + i];
             self.diagonal.as_mut()[i] = d.max(M::Real::FLOOR);
-            let column = kernel::column_mut(self.columns.as_mut(), i);
-            column.copy_from_slice(&information[i * n..i * n + i]);
+            kernel::put_column(self.columns.as_mut(), i, &information[i * n..]);
         }
         self.trace_bound = trace;
         Ok(())

@@ -5,7 +5,7 @@ use super::{Factor, Form};
 use crate::{Error, Memory, Real};
 
 /// What one scalar measurement with unit variance brings.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Measured<T> {
     /// s = f·P·fᵀ, with the P of before
     pub leverage: T,

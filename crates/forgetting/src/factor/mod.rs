@@ -15,12 +15,13 @@ pub use form::{DeadZone, Form};
 pub use information::Measured;
 
 use crate::{Error, Memory, Real};
+use core::cmp::Ordering;
 
 /// P = U D Uᵀ, n x n and positive definite.
 #[derive(Clone, Debug)]
 pub struct Factor<M: Memory> {
     memory: M,
-    /// the columns of U, one after the other; see [`kernel::start`]
+    /// the columns of U, in tiles; see [`kernel::place`]
     columns: M::Packed,
     diagonal: M::Vector,
     /// at least the trace of P; kept in O(1), tightened when it matters
@@ -70,12 +71,22 @@ impl<M: Memory> Factor<M> {
         factor
     }
 
-    /// Whether D is within range and U finite: whether this is a positive definite P.
+    /// Whether D and P are within range: whether this is a positive definite P. O(n²).
     pub fn is_sound(&self) -> bool {
         let in_range = |d: &M::Real| *d >= M::Real::FLOOR && *d <= M::Real::CEILING;
+        let n = M::Real::from_f64(self.parameters() as f64);
         self.diagonal.as_ref().iter().all(in_range)
-            && self.columns.as_ref().iter().all(|u| u.is_finite())
+            && self.trace() <= n * M::Real::CEILING
             && self.trace_bound.is_finite()
+    }
+
+    /// Makes the bound of P's trace one, if it is far from it.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn check_bound(&mut self) {
+        // half of it, for rounding
+        if !(self.trace_bound >= M::Real::from_f64(0.5) * self.trace()) {
+            self.tighten();
+        }
     }
 
     /// n
@@ -99,7 +110,7 @@ impl<M: Memory> Factor<M> {
     /// The columns of U as the kernels take them.
     #[inline(always)]
     pub fn packed_columns(&self) -> &[M::Real] {
-        self.columns.as_ref()
+        &self.columns.as_ref()[..kernel::length::<M::Real>(self.parameters())]
     }
 
     /// The largest element of D: at most the largest eigenvalue of P, and of its order when
@@ -122,18 +133,27 @@ impl<M: Memory> Factor<M> {
         self.diagonal.as_ref().iter().fold(M::Real::CEILING, |smallest, &d| smallest.min(d))
     }
 
-    /// Column j of U above the diagonal.
-    #[inline(always)]
-    pub fn column(&self, j: usize) -> &[M::Real] {
-        kernel::column(self.columns.as_ref(), j)
+    /// Copies column j of U above the diagonal to `copy`, j numbers or more.
+    pub fn get_column(&self, j: usize, copy: &mut [M::Real]) {
+        kernel::get_column(self.columns.as_ref(), j, copy);
+    }
+
+    /// The element of U at row i and column j.
+    #[inline]
+    pub fn unit(&self, i: usize, j: usize) -> M::Real {
+        match i.cmp(&j) {
+            Ordering::Less => self.columns.as_ref()[kernel::place::<M::Real>(i, j)],
+            Ordering::Equal => M::Real::ONE,
+            Ordering::Greater => M::Real::ZERO,
+        }
     }
 
     /// The trace of P, O(n²).
     pub fn trace(&self) -> M::Real {
         let diagonal = self.diagonal.as_ref();
         (0..self.parameters()).fold(M::Real::ZERO, |trace, j| {
-            let column = self.column(j);
-            trace + diagonal[j] * (M::Real::ONE + kernel::dot(column, column))
+            let column = kernel::column(self.columns.as_ref(), j);
+            trace + diagonal[j] * column.fold(M::Real::ONE, |sum, u| sum + kernel::dot(u, u))
         })
     }
 
@@ -154,15 +174,8 @@ impl<M: Memory> Factor<M> {
 
     /// P's element at `row` ≤ `column`: Σ_k U_row,k D_k U_column,k.
     fn element(&self, row: usize, column: usize) -> M::Real {
-        let entry = |i: usize, k: usize| {
-            if i == k {
-                M::Real::ONE
-            } else {
-                self.column(k)[i]
-            }
-        };
         (column..self.parameters()).fold(M::Real::ZERO, |sum, k| {
-            sum + entry(row, k) * self.diagonal.as_ref()[k] * entry(column, k)
+            sum + self.unit(row, k) * self.diagonal.as_ref()[k] * self.unit(column, k)
         })
     }
 

@@ -1,5 +1,6 @@
 //! Which estimators can be streams of one fleet.
 
+use crate::gates::Gate;
 use crate::parameter::Value;
 use crate::rates::Rate;
 use crate::rules::Forgetting;
@@ -33,6 +34,8 @@ pub fn check_kind<T: Real>(
         "a stream has the rate of its fleet; only a constant forgetting factor may differ"
     } else if weighting(fresh)? != weighting(estimator)? {
         "a stream has the weighting of its fleet"
+    } else if gate(fresh)? != gate(estimator)? {
+        "a stream has the gate of its fleet"
     } else if estimator.health().is_some() {
         "a stream of a fleet is not monitored"
     } else {
@@ -64,4 +67,9 @@ fn rate<T: Real>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
 fn weighting<T: Real>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
     let weighting = estimator.weighting();
     written(weighting.about().name, |each| weighting.describe(&mut |name, value| each(name, value)))
+}
+
+fn gate<T: Real>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
+    let gate = estimator.gate();
+    written(gate.about().name, |each| gate.describe(&mut |name, value| each(name, value)))
 }

@@ -19,6 +19,7 @@ pub(crate) use storage::{Layout, Line};
 use crate::factor::kernel::fleet::SCRATCH;
 use crate::factor::kernel::BLOCK;
 use crate::factor::Form;
+use crate::gates::Gate;
 use crate::rates::{AnyRate, Constant, Rate};
 use crate::rules::Forgetting;
 use crate::saved::AnyEstimator;
@@ -90,7 +91,8 @@ impl<T: Real> Fleet<T> {
     pub fn of(mut fresh: AnyEstimator<T>) -> Result<Self, Error> {
         fresh.reset();
         let Some(form) = form_of(&fresh) else {
-            let reason = "this fleet takes one row, one target, no monitor, equal weights, a \
+            let reason =
+                "this fleet takes one row, one target, no monitor, no gate, equal weights, a \
                           constant forgetting factor and a rule that has a form";
             return Err(Error::Unsupported { reason });
         };
@@ -257,7 +259,9 @@ impl<T: Real> Fleet<T> {
 /// How an estimator forgets at every sample, if that is all that it does to P.
 fn form_of<T: Real>(estimator: &AnyEstimator<T>) -> Option<Form<T>> {
     let memory = estimator.prior().memory();
-    let single = (memory.rows(), memory.targets()) == (1, 1) && estimator.health().is_none();
+    let single = (memory.rows(), memory.targets()) == (1, 1)
+        && estimator.health().is_none()
+        && estimator.gate().is_open();
     // as any estimator: less than the rounding unit forgets every digit all the same
     let lambda = estimator.rate().constant()?.max(T::EPSILON);
     estimator.rule().form(lambda).filter(|_| single && estimator.weighting().is_equal())

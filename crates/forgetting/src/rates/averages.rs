@@ -76,6 +76,11 @@ impl<T: Real> Averages<T> {
         self
     }
 
+    /// Whether both can be averages of what [`Evidence`](super::Evidence) tells.
+    pub fn are_sound(&self) -> bool {
+        [self.fast, self.slow].iter().all(|x| *x >= T::ZERO && *x <= T::CEILING)
+    }
+
     /// Shows both to `visitor`.
     pub fn visit(&mut self, visitor: &mut dyn Visitor<T>) {
         visitor.reals(core::slice::from_mut(&mut self.fast));

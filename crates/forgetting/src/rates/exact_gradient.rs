@@ -28,7 +28,7 @@ use super::limits::{largest, SMALLEST};
 use super::{AboutRate, Evidence, Limits, Rate};
 use crate::factor::kernel::{add_scaled, dot};
 use crate::parameter::{Parameter, Range, Value, Values};
-use crate::state::{State, Visitor};
+use crate::state::{is_factor, is_finite, State, Visitor};
 use crate::{Error, Factor, Memory, Real, Sample};
 
 const LARGEST: Parameter = largest(0.9999, Range::FRACTION);
@@ -70,6 +70,10 @@ impl<M: Memory> State<M::Real> for Sensitivity<M> {
         visitor.reals(self.theta.as_mut());
         visitor.reals(core::slice::from_mut(&mut self.next));
     }
+
+    fn is_sound(&self) -> bool {
+        is_finite(self) && is_factor(self.next)
+    }
 }
 
 impl<M: Memory> Sensitivity<M> {
@@ -110,7 +114,7 @@ impl<M: Memory> Sensitivity<M> {
                 add_scaled(&mut z[i..], -h[i], &g[i..]);
             }
         }
-        subtract(factor, covariance);
+        subtract(factor, covariance, h);
         for i in 0..n {
             for j in i..n {
                 let z = covariance[i * n + j] / lambda;
@@ -152,10 +156,11 @@ impl<M: Memory> Sensitivity<M> {
 }
 
 /// The upper triangle of `matrix` −= that of P = Σ_j D_j u_j u_jᵀ, O(n³/6).
-fn subtract<M: Memory>(factor: &Factor<M>, matrix: &mut [M::Real]) {
+fn subtract<M: Memory>(factor: &Factor<M>, matrix: &mut [M::Real], u: &mut [M::Real]) {
     let n = factor.parameters();
     for (j, &d) in factor.diagonal_elements().iter().enumerate() {
-        let u = factor.column(j);
+        factor.get_column(j, u);
+        let u = &u[..j];
         for (i, &x) in u.iter().enumerate() {
             let row = &mut matrix[i * n + i..];
             add_scaled(row, -(d * x), &u[i..]);

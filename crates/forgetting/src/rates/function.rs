@@ -18,10 +18,9 @@
 //!   better a rate.
 
 use super::{AboutRate, Evidence, Needs, Rate};
+use crate::function::EvidenceFunction;
 use crate::parameter::{Kind, Parameter, Range, Value, Values};
 use crate::{Error, Memory};
-use alloc::sync::Arc;
-use core::any::Any;
 
 const FUNCTION: Parameter = Parameter::elements(
     "function",
@@ -40,10 +39,6 @@ pub const ABOUT: AboutRate = AboutRate {
     parameters: &[FUNCTION],
 };
 
-type Call<M> = dyn for<'a, 'b, 'c> Fn(&'a Evidence<'b, 'c, M>) -> Result<<M as Memory>::Real, Error>
-    + Send
-    + Sync;
-
 /// λ from a function; see [`self`](crate::rates::function).
 ///
 /// ```
@@ -57,51 +52,13 @@ type Call<M> = dyn for<'a, 'b, 'c> Fn(&'a Evidence<'b, 'c, M>) -> Result<<M as M
 /// assert_eq!(estimator.update(&[1.0], &[2.0])?.forgetting_factor, 0.9);
 /// # Ok::<(), forgetting::Error>(())
 /// ```
-#[derive(Clone)]
-pub struct Function<M: Memory> {
-    call: Arc<Call<M>>,
-    origin: Arc<dyn Any + Send + Sync>,
-}
-
-impl<M: Memory> core::fmt::Debug for Function<M> {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.write_str("Function")
-    }
-}
-
-impl<M: Memory> Function<M> {
-    /// The rate that asks `function`. It reports a failure of its own as [`Error::Function`].
-    pub fn new<F>(function: F) -> Self
-    where
-        F: for<'a, 'b, 'c> Fn(&'a Evidence<'b, 'c, M>) -> Result<M::Real, Error>
-            + Send
-            + Sync
-            + 'static,
-    {
-        Self { call: Arc::new(function), origin: Arc::new(()) }
-    }
-
-    /// The same, with what the function was made from, for [`Function::origin`] to give back.
-    #[must_use]
-    pub fn with_origin(self, origin: impl Any + Send + Sync) -> Self {
-        Self { origin: Arc::new(origin), ..self }
-    }
-
-    /// What the function was made from.
-    pub fn origin(&self) -> &(dyn Any + Send + Sync) {
-        &*self.origin
-    }
-}
+pub type Function<M> = EvidenceFunction<M, <M as Memory>::Real>;
 
 impl<M: Memory> Rate<M> for Function<M> {
     type State = ();
 
     fn configure(values: &dyn Values, _: M) -> Result<Self, Error> {
-        match FUNCTION.look_up(values)? {
-            Value::Function(function) => function.downcast_ref::<Self>().cloned(),
-            _ => None,
-        }
-        .ok_or(Error::value(FUNCTION.name, f64::NAN, "a function"))
+        Self::given(&FUNCTION, values)
     }
 
     fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>)) {
@@ -120,7 +77,7 @@ impl<M: Memory> Rate<M> for Function<M> {
         (): &(),
         evidence: &Evidence<'_, '_, M>,
     ) -> Result<M::Real, Error> {
-        (self.call)(evidence)
+        self.ask(evidence)
     }
 }
 

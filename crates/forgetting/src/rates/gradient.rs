@@ -35,7 +35,7 @@ use super::averages::{Averages, Memories};
 use super::limits::{largest, SMALLEST};
 use super::{AboutRate, Evidence, Limits, Rate};
 use crate::parameter::{Parameter, Range, Value, Values};
-use crate::state::{State, Visitor};
+use crate::state::{is_factor, State, Visitor};
 use crate::{Error, Memory, Real};
 
 pub(super) const STEP_SIZE: Parameter = Parameter::real(
@@ -85,6 +85,13 @@ impl<T: Real> State<T> for Slope<T> {
         visitor.reals(core::slice::from_mut(&mut self.t));
         visitor.reals(core::slice::from_mut(&mut self.gradient));
         visitor.reals(core::slice::from_mut(&mut self.last));
+    }
+
+    fn is_sound(&self) -> bool {
+        let in_range = |x: &T| x.abs() <= T::CEILING;
+        self.errors.are_sound()
+            && [self.r, self.t, self.gradient].iter().all(in_range)
+            && is_factor(self.last)
     }
 }
 

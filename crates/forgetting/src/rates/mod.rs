@@ -131,6 +131,12 @@ macro_rules! registry {
                     $($(#[$only])* Self::$Rate(state) => state.visit(visitor),)*
                 }
             }
+
+            fn is_sound(&self) -> bool {
+                match self {
+                    $($(#[$only])* Self::$Rate(state) => State::<M::Real>::is_sound(state),)*
+                }
+            }
         }
 
         impl<M: Memory> Rate<M> for AnyRate<M> {

@@ -1,6 +1,6 @@
 //! The state of a design that finds λ for the next sample and remembers nothing else.
 
-use crate::state::{State, Visitor};
+use crate::state::{is_factor, State, Visitor};
 use crate::Real;
 
 /// The next λ.
@@ -10,5 +10,9 @@ pub struct Next<T>(pub T);
 impl<T: Real> State<T> for Next<T> {
     fn visit(&mut self, visitor: &mut dyn Visitor<T>) {
         visitor.reals(core::slice::from_mut(&mut self.0));
+    }
+
+    fn is_sound(&self) -> bool {
+        is_factor(self.0)
     }
 }

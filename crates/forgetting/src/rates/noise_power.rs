@@ -34,7 +34,7 @@ use super::averages::{Averages, Memories};
 use super::limits::{largest, SMALLEST};
 use super::{AboutRate, Evidence, Limits, Needs, Rate};
 use crate::parameter::{Parameter, Range, Value, Values};
-use crate::state::{State, Visitor};
+use crate::state::{is_factor, State, Visitor};
 use crate::{Error, Memory, Real};
 
 const RATIO: Parameter = Parameter::real(
@@ -88,6 +88,10 @@ impl<T: Real> State<T> for Powers<T> {
         self.errors.visit(visitor);
         self.spreads.visit(visitor);
         visitor.reals(core::slice::from_mut(&mut self.next));
+    }
+
+    fn is_sound(&self) -> bool {
+        self.errors.are_sound() && self.spreads.are_sound() && is_factor(self.next)
     }
 }
 

@@ -184,15 +184,19 @@ impl<M: Memory> BlockRoot<M> {
     /// P_bb = V diag(d) Vᵀ: the block's own triangle of U, and a dyad for each later column.
     fn compute(&mut self, factor: &Factor<M>, range: Places<usize>, x: &mut [M::Real]) {
         let (size, start) = (range.len(), range.start);
-        let columns = &mut self.columns.as_mut()[..kernel::length(size)];
+        let columns = &mut self.columns.as_mut()[..kernel::length::<M::Real>(size)];
         let diagonal = &mut self.diagonal.as_mut()[..size];
         diagonal.copy_from_slice(&factor.diagonal_elements()[range.clone()]);
         for j in 0..size {
-            kernel::column_mut(columns, j).copy_from_slice(&factor.column(start + j)[start..]);
+            for i in 0..j {
+                columns[kernel::place::<M::Real>(i, j)] = factor.unit(start + i, start + j);
+            }
         }
         for k in range.end..factor.parameters() {
             let x = &mut x[..size];
-            x.copy_from_slice(&factor.column(k)[range.clone()]);
+            for (x, i) in x.iter_mut().zip(range.clone()) {
+                *x = factor.unit(i, k);
+            }
             kernel::agee_turner(columns, diagonal, x, factor.diagonal_elements()[k]);
         }
     }
@@ -206,9 +210,8 @@ impl<M: Memory> BlockRoot<M> {
         direction: &mut [M::Real],
     ) {
         for (j, &d) in self.diagonal.as_ref()[..range.len()].iter().enumerate() {
-            let v = kernel::column(self.columns.as_ref(), j);
             direction.fill(M::Real::ZERO);
-            direction[range.start..range.start + j].copy_from_slice(v);
+            kernel::get_column(self.columns.as_ref(), j, &mut direction[range.start..]);
             direction[range.start + j] = M::Real::ONE;
             factor.add_covariance(direction, weight * d);
         }

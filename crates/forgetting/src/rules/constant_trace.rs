@@ -110,6 +110,10 @@ impl<M: Memory> Forgetting<M> for ConstantTrace<M> {
         true
     }
 
+    fn follow(&self, state: &mut Measured, _: Step<'_, '_, M>) {
+        state.0 = 1;
+    }
+
     fn forget(&self, state: &mut Measured, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         if state.0 == 0 {
             state.0 = 1;

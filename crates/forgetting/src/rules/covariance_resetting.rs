@@ -30,7 +30,8 @@
 //!   ten times as large are found after 4 to 5 samples on average.
 //!
 //! At a reset the rule still chooses what is measured, and its own state goes on. A sample that
-//! it skips is skipped, and the criterion does not see it. The forgetting factor is the rule's.
+//! it skips is skipped, and the criterion does not see it, nor one that a gate holds or freezes.
+//! The forgetting factor is the rule's.
 //!
 //! - Proper (A1): if P ≤ P_∞ at every reset and the rule is proper.
 //! - P̄ bounded above without excitation (A2): if the rule's is.
@@ -99,6 +100,10 @@ impl<M: Memory, S: State<M::Real>> State<M::Real> for Resetting<M, S> {
         self.rule.visit(visitor);
         self.watch.visit(visitor);
     }
+
+    fn is_sound(&self) -> bool {
+        self.rule.is_sound() && self.watch.is_sound()
+    }
 }
 
 impl<M: Memory, F: Forgetting<M>> CovarianceResetting<M, F> {
@@ -150,6 +155,10 @@ impl<M: Memory, F: Forgetting<M>> Forgetting<M> for CovarianceResetting<M, F> {
 
     fn is_bounded(&self) -> bool {
         self.rule.is_bounded()
+    }
+
+    fn follow(&self, state: &mut Self::State, step: Step<'_, '_, M>) {
+        self.rule.follow(&mut state.rule, step);
     }
 
     #[inline]

@@ -35,7 +35,7 @@
 use super::{About, Claim, Forgetting, Forgotten, Step};
 use crate::parameter::{Parameter, Range, Value, Values};
 use crate::spectrum::Spectrum;
-use crate::state::{State, Visitor};
+use crate::state::{is_finite, State, Visitor};
 use crate::{Error, Memory, Real};
 
 const GAIN: Parameter =
@@ -177,6 +177,15 @@ impl<M: Memory> State<M::Real> for Pending<M> {
     fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
         self.spectrum.visit(visitor);
         visitor.reals(self.added.as_mut());
+    }
+
+    fn is_sound(&self) -> bool {
+        let added = self.added.as_ref();
+        let total = added.iter().fold(M::Real::ZERO, |sum, &x| sum + x);
+        is_finite(self)
+            && added.iter().all(|&x| x >= M::Real::ZERO)
+            && total <= M::Real::CEILING
+            && (total == M::Real::ZERO || self.spectrum.is_spectrum())
     }
 }
 

@@ -172,6 +172,14 @@ impl<M: Memory> Forgetting<M> for MatrixForgetting<M> {
         true
     }
 
+    fn follow(&self, spectrum: &mut Spectrum<M>, step: Step<'_, '_, M>) {
+        if self.power == 1 && self.shift.is_none() {
+            return; // resetting looks at P alone
+        }
+        spectrum.follow(step.factor);
+        spectrum.learn_rows(step.sample);
+    }
+
     #[inline]
     fn forget(
         &self,
@@ -193,9 +201,7 @@ impl<M: Memory> Forgetting<M> for MatrixForgetting<M> {
                 self.forget_along(spectrum, &mut step, i);
             }
         }
-        for i in 0..step.sample.rows() {
-            spectrum.learn(step.sample.row(i));
-        }
+        spectrum.learn_rows(step.sample);
         Ok(Forgotten::rank(if forgets { n } else { 0 }))
     }
 }

@@ -66,11 +66,14 @@ pub enum Skip {
     Missing,
     /// the innovation is within what is known already
     WithinBound,
+    /// the gate holds it back
+    Gate,
 }
 
 impl Skip {
     /// Every reason; its position plus one is its code in a record of results (0: not skipped).
-    pub const ALL: &'static [Self] = &[Self::DeadZone, Self::Missing, Self::WithinBound];
+    pub const ALL: &'static [Self] =
+        &[Self::DeadZone, Self::Missing, Self::WithinBound, Self::Gate];
 
     /// The reason in a word.
     pub fn word(self) -> &'static str {
@@ -78,6 +81,7 @@ impl Skip {
             Self::DeadZone => "dead_zone",
             Self::Missing => "missing",
             Self::WithinBound => "within_bound",
+            Self::Gate => "gate",
         }
     }
 
@@ -131,6 +135,13 @@ pub trait Forgetting<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
     fn form(&self, forgetting_factor: M::Real) -> Option<Form<M::Real>> {
         let _ = forgetting_factor;
         None
+    }
+
+    /// Takes note of a sample that is measured although nothing is forgotten, because a gate
+    /// says so. Only a rule whose state follows P need do so; P itself is not to be changed.
+    #[inline]
+    fn follow(&self, state: &mut Self::State, step: Step<'_, '_, M>) {
+        let _ = (state, step);
     }
 
     /// Forgets. Changes P, may rotate, scale or drop rows of the sample.
@@ -187,6 +198,12 @@ macro_rules! choice_of_rules {
                     $(Self::$Variant(state) => state.visit(visitor),)*
                 }
             }
+
+            fn is_sound(&self) -> bool {
+                match self {
+                    $(Self::$Variant(state) => State::<M::Real>::is_sound(state),)*
+                }
+            }
         }
 
         impl<M: Memory> Forgetting<M> for $Rule<M> {
@@ -226,6 +243,14 @@ macro_rules! choice_of_rules {
             fn form(&self, forgetting_factor: M::Real) -> Option<Form<M::Real>> {
                 match self {
                     $(Self::$Variant(rule) => rule.form(forgetting_factor),)*
+                }
+            }
+
+            #[inline(never)]
+            fn follow(&self, state: &mut Self::State, step: Step<'_, '_, M>) {
+                match (self, state) {
+                    $((Self::$Variant(rule), $State::$Variant(state)) => rule.follow(state, step),)*
+                    _ => {}
                 }
             }
 

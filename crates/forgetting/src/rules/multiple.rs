@@ -28,10 +28,10 @@
 //! stability and robustness guarantees*, IEEE Transactions on Automatic Control, 2024, V-J.
 
 use super::{About, Claim, Forgetting, Forgotten, Step};
-use crate::factor::kernel::{self, add_scaled, bierman, dot, length, set_identity};
+use crate::factor::kernel::{add_scaled, bierman, dot, length, place, set_identity};
 use crate::parameter::{Kind, Parameter, Range, Value, Values};
-use crate::state::{State, Visitor};
-use crate::{Error, Factor, Memory, Real};
+use crate::state::{is_finite, State, Visitor};
+use crate::{Error, Factor, Memory, Real, Sample};
 
 const FACTORS: Parameter = Parameter::elements(
     "factors",
@@ -135,6 +135,32 @@ impl<M: Memory> Multiple<M> {
             Some((*start - size, size, factor))
         })
     }
+
+    /// Takes the blocks of the first P.
+    fn start_once(&self, state: &mut Blocks<M>, factor: &Factor<M>) {
+        if state.started == 0 {
+            let mut offset = 0;
+            for (start, size, _) in self.blocks() {
+                state.start_block(factor, start, size, offset);
+                offset += length::<M::Real>(size);
+            }
+            state.started = 1;
+        }
+    }
+}
+
+/// R_bb ← R_bb + φ̄_bᵀφ̄_b for the block of parameters from `start` on.
+#[inline]
+fn measure_block<M: Memory>(
+    (columns, diagonal): (&mut [M::Real], &mut [M::Real]),
+    start: usize,
+    sample: &Sample<'_, M>,
+    gain: &mut [M::Real],
+) {
+    for i in 0..sample.rows() {
+        let row = &sample.row(i)[start..start + diagonal.len()];
+        bierman(columns, diagonal, row, gain);
+    }
 }
 
 fn refuse(parameter: &'static str, index: usize, value: f64, allowed: &'static str) -> Error {
@@ -158,7 +184,7 @@ impl<M: Memory> Blocks<M> {
     fn start_block(&mut self, factor: &Factor<M>, start: usize, size: usize, offset: usize) {
         let n = factor.parameters();
         let rows = &mut self.work.as_mut()[..size * n];
-        let columns = &mut self.columns.as_mut()[offset..offset + length(size)];
+        let columns = &mut self.columns.as_mut()[offset..offset + length::<M::Real>(size)];
         set_identity(columns, size);
         for t in 0..size {
             let (done, row) = rows.split_at_mut(t * n);
@@ -169,12 +195,14 @@ impl<M: Memory> Blocks<M> {
             for (x, &d) in row.iter_mut().zip(factor.diagonal_elements()) {
                 *x /= d.sqrt();
             }
-            let (before, column) = columns.split_at_mut(kernel::start(t));
             for (u, q) in done.chunks_exact(n).enumerate() {
                 let share = dot(q, row) / dot(q, q);
                 add_scaled(row, -share, q);
-                column[u] -= share;
-                add_scaled(column, -share, crate::factor::kernel::column(before, u));
+                columns[place::<M::Real>(u, t)] -= share;
+                for i in 0..u {
+                    let above = columns[place::<M::Real>(i, u)];
+                    columns[place::<M::Real>(i, t)] -= share * above;
+                }
             }
             self.diagonal.as_mut()[start + t] =
                 (M::Real::ONE / dot(row, row)).max(M::Real::FLOOR).min(M::Real::CEILING);
@@ -211,31 +239,32 @@ impl<M: Memory> Forgetting<M> for Multiple<M> {
         Blocks { columns, diagonal, started: 0, work: memory.square() }
     }
 
+    fn follow(&self, state: &mut Blocks<M>, step: Step<'_, '_, M>) {
+        self.start_once(state, step.factor);
+        let mut offset = 0;
+        for (start, size, _) in self.blocks() {
+            let columns = &mut state.columns.as_mut()[offset..offset + length::<M::Real>(size)];
+            let diagonal = &mut state.diagonal.as_mut()[start..start + size];
+            measure_block((columns, diagonal), start, step.sample, step.work.gain.as_mut());
+            offset += length::<M::Real>(size);
+        }
+    }
+
     #[inline]
     fn forget(&self, state: &mut Blocks<M>, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         let least = self.blocks().fold(M::Real::ONE, |least, (_, _, lambda)| least.min(lambda));
         // R_bb⁻¹ ≤ P_bb, so that P̄ is at most P/λ of the smallest λ
         step.factor.reserve(M::Real::ONE / least, M::Real::ZERO)?;
-        if state.started == 0 {
-            let mut offset = 0;
-            for (start, size, _) in self.blocks() {
-                state.start_block(step.factor, start, size, offset);
-                offset += length(size);
-            }
-            state.started = 1;
-        }
+        self.start_once(state, step.factor);
         step.factor.clear_columns();
         let mut offset = 0;
         for (start, size, lambda) in self.blocks() {
-            let columns = &mut state.columns.as_mut()[offset..offset + length(size)];
+            let columns = &mut state.columns.as_mut()[offset..offset + length::<M::Real>(size)];
             let diagonal = &mut state.diagonal.as_mut()[start..start + size];
             diagonal.iter_mut().for_each(|d| *d = (*d / lambda).min(M::Real::CEILING));
             step.factor.put_block(start, columns, diagonal);
-            for i in 0..step.sample.rows() {
-                let row = &step.sample.row(i)[start..start + size];
-                bierman(columns, diagonal, row, step.work.gain.as_mut());
-            }
-            offset += columns.len();
+            measure_block((columns, diagonal), start, step.sample, step.work.gain.as_mut());
+            offset += length::<M::Real>(size);
         }
         Ok(Forgotten::rank(step.factor.parameters()))
     }
@@ -246,6 +275,11 @@ impl<M: Memory> State<M::Real> for Blocks<M> {
         visitor.reals(self.columns.as_mut());
         visitor.reals(self.diagonal.as_mut());
         visitor.whole(&mut self.started);
+    }
+
+    fn is_sound(&self) -> bool {
+        let in_range = |d: &M::Real| *d >= M::Real::FLOOR && *d <= M::Real::CEILING;
+        is_finite(self) && (self.started == 0 || self.diagonal.as_ref().iter().all(in_range))
     }
 }
 

@@ -34,7 +34,7 @@
 use super::{About, Claim, Forgetting, Forgotten, Step};
 use crate::factor::kernel::{add_scaled, dot};
 use crate::parameter::{Value, Values};
-use crate::state::{State, Visitor};
+use crate::state::{is_factor, State, Visitor};
 use crate::{Error, Factor, Memory, Real, Sample, Work};
 use core::marker::PhantomData;
 
@@ -78,6 +78,11 @@ impl<M: Memory> State<M::Real> for Pending<M> {
     fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
         visitor.reals(self.regressors.as_mut());
         visitor.reals(core::slice::from_mut(&mut self.forgetting_factor));
+    }
+
+    fn is_sound(&self) -> bool {
+        let regressors = self.regressors.as_ref();
+        is_factor(self.forgetting_factor) && dot(regressors, regressors) <= M::Real::CEILING
     }
 }
 

@@ -153,6 +153,13 @@ impl<M: Memory> Forgetting<M> for VariableDirection<M> {
         Spectrum::new(memory)
     }
 
+    fn follow(&self, spectrum: &mut Spectrum<M>, step: Step<'_, '_, M>) {
+        if step.sample.squared_regressors() > M::Real::ZERO {
+            spectrum.follow(step.factor);
+            spectrum.learn_rows(step.sample);
+        }
+    }
+
     #[inline]
     fn forget(
         &self,
@@ -176,9 +183,7 @@ impl<M: Memory> Forgetting<M> for VariableDirection<M> {
                 done == 0 && 3 * rest < 2 * rank && lambda >= M::Real::from_f64(0.5);
             forget_marked(spectrum, &mut step, rest_is_small)?;
         }
-        for i in 0..step.sample.rows() {
-            spectrum.learn(step.sample.row(i));
-        }
+        spectrum.learn_rows(step.sample);
         Ok(Forgotten::rank(rank))
     }
 }

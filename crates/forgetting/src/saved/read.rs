@@ -1,7 +1,7 @@
 //! Reading a state. Nothing here trusts the bytes: a length is checked before it is used.
 
-use super::{AnyEstimator, AnyRate, AnyWeighting, Dynamic, Error, Estimator, Memory, Prior};
-use super::{Box, Real, Rule, String, Value, Values, Vec, Visitor};
+use super::{AnyEstimator, AnyGate, AnyRate, AnyWeighting, Dynamic, Error, Estimator, Memory};
+use super::{Box, Open, Prior, Real, Rule, String, Value, Values, Vec, Visitor};
 
 /// A place in the bytes, and whether they have run out.
 pub struct Reader<'a> {
@@ -106,7 +106,7 @@ impl Values for Parameters {
 }
 
 /// The estimator described before the numbers, with the prior's numbers but its first state.
-pub fn header<T: Real>(reader: &mut Reader<'_>) -> Result<AnyEstimator<T>, Error> {
+pub fn header<T: Real>(reader: &mut Reader<'_>, version: u8) -> Result<AnyEstimator<T>, Error> {
     if usize::from(reader.byte()?) != T::BYTES {
         return Err(Error::State { reason: "it holds numbers of another type" });
     }
@@ -119,6 +119,12 @@ pub fn header<T: Real>(reader: &mut Reader<'_>) -> Result<AnyEstimator<T>, Error
     let rate = AnyRate::named(&name, &parameters, memory)?;
     let (name, parameters) = reader.choice(0)?;
     let weighting = AnyWeighting::named(&name, &parameters, memory)?;
+    let gate = if version == 1 {
+        AnyGate::Open(Open::new())
+    } else {
+        let (name, parameters) = reader.choice(0)?;
+        AnyGate::named(&name, &parameters, memory)?
+    };
     let numbers = memory.parameters() * (memory.targets() + 1) * T::BYTES;
     if reader.bytes.len() < numbers {
         return Err(Error::State { reason: "it is truncated" });
@@ -128,7 +134,7 @@ pub fn header<T: Real>(reader: &mut Reader<'_>) -> Result<AnyEstimator<T>, Error
     if !prior.is_sound() {
         return Err(Error::State { reason: "its numbers are not those of a prior" });
     }
-    let mut estimator = Estimator::new(rule, rate, weighting, prior);
+    let mut estimator = Estimator::new(rule, rate, weighting, prior).with_gate(gate);
     if watched {
         estimator.watch();
     }

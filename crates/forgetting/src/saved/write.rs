@@ -1,6 +1,8 @@
 //! Writing a state.
 
-use super::{AnyEstimator, Error, Forgetting, Memory, Rate, Real, Value, Vec, Visitor, Weighting};
+use super::{
+    AnyEstimator, Error, Forgetting, Gate, Memory, Rate, Real, Value, Vec, Visitor, Weighting,
+};
 use super::{MARK, VERSION};
 
 /// Everything before the numbers.
@@ -22,6 +24,10 @@ pub fn header<T: Real>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
     choice(&mut bytes, of_rate, |each| rate.describe(&mut |name, value| each(name, value)))?;
     choice(&mut bytes, weighting.about().name, |each| {
         weighting.describe(&mut |name, value| each(name, value));
+    })?;
+    let gate = estimator.gate();
+    choice(&mut bytes, gate.about().name, |each| {
+        gate.describe(&mut |name, value| each(name, value))
     })?;
     Ok(bytes)
 }

@@ -13,9 +13,9 @@ mod jacobi;
 mod secular;
 
 use crate::factor::kernel::dot;
-use crate::state::{State, Visitor};
+use crate::state::{is_finite, State, Visitor};
 use crate::vector::Vector;
-use crate::{Factor, Kernel, Memory, Real};
+use crate::{Factor, Kernel, Memory, Real, Sample};
 use combine::Rows;
 
 /// R = P⁻¹ = Σ_i r_i v_i v_iᵀ with r ascending.
@@ -68,6 +68,15 @@ impl<M: Memory> Spectrum<M> {
     pub fn vector(&self, i: usize) -> &[M::Real] {
         let n = self.memory.parameters();
         &self.vectors.as_ref()[i * n..(i + 1) * n]
+    }
+
+    /// Whether these can be eigenvectors and eigenvalues: of length 1, and in range.
+    pub fn is_spectrum(&self) -> bool {
+        let tolerance = M::Real::from_f64(1e-3);
+        let in_range = |r: &M::Real| *r >= M::Real::FLOOR && *r <= M::Real::CEILING;
+        let mut vectors = self.vectors.as_ref().chunks_exact(self.memory.parameters());
+        vectors.all(|v| (dot(v, v) - M::Real::ONE).abs() <= tolerance)
+            && self.information.as_ref().iter().all(in_range)
     }
 
     /// r_i ← `information`, kept within the range of what P can be.
@@ -127,6 +136,13 @@ impl<M: Memory> Spectrum<M> {
             }
         } else if active > 1 && !self.update(active) {
             self.age = 0; // out of range: compute it from P at the next sample
+        }
+    }
+
+    /// The same for every row of a sample.
+    pub fn learn_rows(&mut self, sample: &Sample<'_, M>) {
+        for i in 0..sample.rows() {
+            self.learn(sample.row(i));
         }
     }
 
@@ -200,6 +216,10 @@ impl<M: Memory> State<M::Real> for Spectrum<M> {
         visitor.reals(self.vectors.as_mut());
         visitor.reals(self.information.as_mut());
         visitor.whole(&mut self.age);
+    }
+
+    fn is_sound(&self) -> bool {
+        is_finite(self) && (self.age == 0 || self.is_spectrum())
     }
 }
 

@@ -3,9 +3,12 @@
 
 mod bits;
 mod fuzz;
+mod gates;
 mod headers;
+mod innovation;
 mod limits;
 mod parameters;
 mod record;
 mod silence;
 mod subjects;
+mod tampering;

@@ -1,6 +1,7 @@
 //! Every rule of the registry, with each of its words and each rule that it can be put around.
 #![allow(dead_code, reason = "each test uses its share")]
 
+use forgetting::gates::Answer;
 use forgetting::parameter::{Kind, Parameter, Value, Values};
 use forgetting::rates::AnyRate;
 use forgetting::rules::{About, Rule, RULES};
@@ -125,6 +126,7 @@ pub struct Outcome {
     pub forgetting_factor: f64,
     pub rank: usize,
     pub skipped: Option<Skip>,
+    pub gate: Answer,
     pub windup: bool,
 }
 
@@ -148,6 +150,7 @@ where
         forgetting_factor: update.forgetting_factor.to_f64(),
         rank: update.rank,
         skipped: update.skipped,
+        gate: update.gate,
         windup: update.windup,
     })
 }

@@ -33,13 +33,12 @@ struct Case<T> {
 impl<T: Real> Case<T> {
     fn new(n: usize, seed: u64) -> Self {
         let mut numbers = Numbers(seed.wrapping_add(n as u64));
-        let mut columns = vec![T::ZERO; kernel::length(n)];
+        let mut columns = vec![T::ZERO; kernel::length::<T>(n)];
         kernel::set_identity(&mut columns, n);
         let small = T::from_f64(1.0 / (n as f64).sqrt());
         for j in 0..n {
-            for u in kernel::column_mut(&mut columns, j) {
-                *u = small * T::from_f64(numbers.next());
-            }
+            let column: Vec<T> = (0..j).map(|_| small * T::from_f64(numbers.next())).collect();
+            kernel::put_column(&mut columns, j, &column);
         }
         let diagonal = (0..n).map(|_| T::from_f64(1.5 + numbers.next())).collect();
         Self { n, columns, diagonal, x: numbers.vector(n) }
@@ -50,7 +49,9 @@ impl<T: Real> Case<T> {
         let mut u = vec![vec![0.0; n]; n];
         for j in 0..n {
             u[j][j] = 1.0;
-            for (i, x) in kernel::column(&self.columns, j).iter().enumerate() {
+            let mut column = vec![T::ZERO; j];
+            kernel::get_column(&self.columns, j, &mut column);
+            for (i, x) in column.iter().enumerate() {
                 u[i][j] = x.to_f64();
             }
         }
@@ -66,11 +67,16 @@ impl<T: Real> Case<T> {
 
     /// Whether what the kernels keep beside U is as it should be.
     fn check_padding(&self) {
+        let mut rest = self.columns.clone();
         for j in 0..self.n {
-            let column = &self.columns[kernel::start(j)..kernel::start(j + 1)];
-            assert!(column[j] == T::ONE, "the diagonal of column {j} of {}", self.n);
-            assert!(column[j + 1..].iter().all(|&x| x == T::ZERO), "below {j} of {}", self.n);
+            let diagonal = &mut rest[kernel::place::<T>(j, j)];
+            assert!(*diagonal == T::ONE, "the diagonal of column {j} of {}", self.n);
+            *diagonal = T::ZERO;
+            for i in 0..j {
+                rest[kernel::place::<T>(i, j)] = T::ZERO;
+            }
         }
+        assert!(rest.iter().all(|&x| x == T::ZERO), "beside U of {}", self.n);
     }
 }
 

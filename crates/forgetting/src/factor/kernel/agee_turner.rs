@@ -12,8 +12,11 @@
 //! W. Murray and M. A. Saunders, *Methods for modifying matrix factorizations*, Mathematics of
 //! Computation 28, 1974, method C1.
 
-use super::block::{eliminate, load_triangle, with_width, PerColumn};
+#![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
+
 use super::layout::BLOCK;
+use super::small::Small;
+use super::tile::{block_mut, eight, eliminate, put_eight, triangle, LongMut};
 use crate::vector::Vector;
 use crate::{Kernel, Real};
 
@@ -35,38 +38,38 @@ impl<T: Real> Kernel<T> for AgeeTurner<'_, T> {
 
     #[inline(always)]
     fn run<V: Vector<T>, const GROUP: usize>(mut self) {
-        let mut t = T::ONE / self.c;
-        for j in (0..self.diagonal.len()).step_by(BLOCK).rev() {
-            let width = BLOCK.min(self.diagonal.len() - j);
+        let n = self.diagonal.len();
+        if n <= BLOCK {
+            return with_width!(n, few::<T>(&mut self));
+        }
+        let (mut x, mut t) = (LongMut::new(self.x), T::ONE / self.c);
+        for b in (0..n.div_ceil(BLOCK)).rev() {
+            let block = block_mut(self.columns, b);
+            let mut d = eight(self.diagonal, b, T::FLOOR);
             let (slope, less_s);
-            (t, slope, less_s) = with_width!(width, corner::<T>(&mut self, j, t));
-            eliminate::<T, V, GROUP>(self.columns, j, width, self.x, (&slope, &less_s));
+            (t, slope, less_s) = scalars(&triangle(block, b), &mut d, x.eight(b), t);
+            put_eight(self.diagonal, b, &d);
+            eliminate::<T, V, GROUP>(block, &mut x, (&slope, &less_s));
         }
     }
 }
 
-/// The triangle of a block: t after it, and the slopes and −s of its columns.
+/// t after a block, and the slopes and −s of its columns.
 #[inline(always)]
-fn corner<T: Real, const C: usize>(
-    task: &mut AgeeTurner<'_, T>,
-    j: usize,
+fn scalars<T: Real, const C: usize>(
+    u: &[[T; C]; C],
+    d: &mut [T; C],
+    x: &[T; C],
     mut t: T,
-) -> (T, PerColumn<T>, PerColumn<T>) {
-    let (mut slope, mut less_s) = ([T::ZERO; BLOCK], [T::ZERO; BLOCK]);
-    let (Some(d), Some(&x)) =
-        (task.diagonal[j..].first_chunk_mut::<C>(), task.x[j..].first_chunk::<C>())
-    else {
-        return (t, slope, less_s);
-    };
-    let u = load_triangle::<T, C>(task.columns, j);
-    let mut rest = x;
+) -> (T, [T; C], [T; C]) {
+    let [mut slope, mut less_s, mut before] = [[T::ZERO; C]; 3];
+    let mut rest = *x;
     for c in (0..C).rev() {
         less_s[c] = -rest[c];
         for i in 0..c {
             rest[i] = less_s[c].mul_add(u[c][i], rest[i]);
         }
     }
-    let mut before = [T::ZERO; C];
     for c in (0..C).rev() {
         before[c] = t;
         t = less_s[c].mul_add(less_s[c] / d[c], t);
@@ -77,4 +80,23 @@ fn corner<T: Real, const C: usize>(
         slope[c] = -(scaled / d[c]);
     }
     (t, slope, less_s)
+}
+
+/// For at most eight parameters.
+#[inline(always)]
+fn few<T: Real, const N: usize>(task: &mut AgeeTurner<'_, T>) {
+    let AgeeTurner { columns, diagonal, x, c } = task;
+    let (Some(d), Some(x)) = (diagonal.first_chunk_mut::<N>(), x.first_chunk_mut::<N>()) else {
+        return;
+    };
+    let mut small = Small::<T, N>::load(columns, d);
+    let (_, slope, less_s) = scalars(&small.u, &mut small.d, x, T::ONE / *c);
+    for c in (0..N).rev() {
+        for i in 0..c {
+            let before = small.u[c][i];
+            x[i] = less_s[c].mul_add(before, x[i]);
+            small.u[c][i] = slope[c].mul_add(x[i], before);
+        }
+    }
+    small.store(columns, d);
 }

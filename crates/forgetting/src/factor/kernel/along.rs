@@ -15,9 +15,13 @@
 //!
 //! O(3 n²), twice Bierman's update alone.
 
+#![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
+
 use super::bierman::Chain;
-use super::block::{solve_and_dot, widen_and_rotate, with_width, Slopes};
 use super::layout::BLOCK;
+use super::tile::{
+    block, block_mut, eight, put_eight, solve_and_dot, widen_and_rotate, Long, LongMut, Slopes,
+};
 use super::triangular::solve_triangle;
 use crate::vector::Vector;
 use crate::Real;
@@ -29,8 +33,8 @@ pub struct Scratch<'a, T> {
     pub x: &'a mut [T],
     pub z: &'a mut [T],
     pub w: &'a mut [T],
-    /// z q of each column
-    energy: &'a mut [T],
+    /// z / D
+    q: &'a mut [T],
     /// the sum of z q over the columns after each
     later: &'a mut [T],
 }
@@ -46,8 +50,8 @@ impl<'a, T> Scratch<'a, T> {
         let (x, rest) = rest.split_at_mut(n);
         let (z, rest) = rest.split_at_mut(n);
         let (w, rest) = rest.split_at_mut(n);
-        let (energy, rest) = rest.split_at_mut(n);
-        Self { k, x, z, w, energy, later: &mut rest[..n] }
+        let (q, rest) = rest.split_at_mut(n);
+        Self { k, x, z, w, q, later: &mut rest[..n] }
     }
 }
 
@@ -59,67 +63,60 @@ pub fn look<T: Real, V: Vector<T>, const GROUP: usize>(
     f: &[T],
     scratch: &mut Scratch<'_, T>,
 ) -> T {
-    let n = diagonal.len();
-    let Scratch { z, w, energy, later, .. } = scratch;
+    let Scratch { z, w, q, later, .. } = scratch;
     z.copy_from_slice(f);
-    let mut sum = T::ZERO;
-    for j in (0..n).step_by(BLOCK).rev() {
-        let width = BLOCK.min(n - j);
-        let factors = with_width!(width, solve_triangle::<T>(columns, j, z));
-        let dots = solve_and_dot::<T, V, GROUP>(columns, j, width, (z, &factors), f);
-        w[j..j + width].copy_from_slice(&dots[..width]);
-        for c in 0..width {
-            energy[j + c] = z[j + c] * (z[j + c] / diagonal[j + c]);
+    let (f, mut z, mut sum) = (Long::new(f), LongMut::new(z), T::ZERO);
+    for b in (0..diagonal.len().div_ceil(BLOCK)).rev() {
+        let block = block(columns, b);
+        let (solved, factors) = solve_triangle(block, b, z.eight(b));
+        let dots = solve_and_dot::<T, V, GROUP>(block, (&mut z, &factors), &f);
+        *z.eight(b) = solved;
+        put_eight(w, b, &dots);
+        let d = eight(diagonal, b, T::FLOOR);
+        let [mut quotients, mut sums] = [[T::ZERO; BLOCK]; 2];
+        for c in 0..BLOCK {
+            quotients[c] = solved[c] / d[c];
         }
-        for c in (j..j + width).rev() {
-            later[c] = sum;
-            sum += energy[c];
+        for c in (0..BLOCK).rev() {
+            sums[c] = sum;
+            sum = solved[c].mul_add(quotients[c], sum);
         }
+        put_eight(q, b, &quotients);
+        put_eight(later, b, &sums);
     }
+    z.finish();
     sum
 }
 
 /// P ← P + c·fᵀf with t = 1/c and P⁻¹ ← P⁻¹ + fᵀf, after [`look`].
 #[inline(always)]
-pub fn add_and_measure<T: Real, V: Vector<T>, const GROUP: usize>(
+pub fn add_and_measure<T: Real, V: Vector<T>>(
     columns: &mut [T],
     diagonal: &mut [T],
     t: T,
     scratch: &mut Scratch<'_, T>,
 ) -> Chain<T> {
-    let n = diagonal.len();
+    let Scratch { k, x, z, w, q, later } = scratch;
+    let (mut k, mut x) = (LongMut::zeros(k), LongMut::zeros(x));
     let (mut chain, mut p) = (Chain::START, T::ZERO);
-    for j in (0..n).step_by(BLOCK) {
-        let width = BLOCK.min(n - j);
-        let d = &mut diagonal[j..j + width];
-        let slopes = with_width!(width, widen::<T>(d, t, scratch, j, (&mut chain, &mut p)));
-        let vectors = (&mut *scratch.x, &mut *scratch.k);
-        widen_and_rotate::<T, V, GROUP>(columns, j, width, vectors, &slopes);
+    for b in 0..diagonal.len().div_ceil(BLOCK) {
+        let [z, w, q, later] = [&*z, &*w, &*q, &*later].map(|of| eight(of, b, T::ZERO));
+        let mut d = eight(diagonal, b, T::FLOOR);
+        let [mut widening, mut widened] = [[T::ZERO; BLOCK]; 2];
+        for c in 0..BLOCK {
+            let before = t + later[c];
+            widening[c] = q[c] / z[c].mul_add(q[c], before);
+            d[c] = (z[c] / before).mul_add(z[c], d[c]);
+        }
+        for c in 0..BLOCK {
+            widened[c] = widening[c].mul_add(p, w[c]);
+            p = z[c].mul_add(w[c], p);
+        }
+        let (slope, v) = chain.pass(&mut d, &widened);
+        put_eight(diagonal, b, &d);
+        let slopes = Slopes { widening, z, slope, v };
+        widen_and_rotate::<T, V>(block_mut(columns, b), &mut x, &mut k, &slopes);
     }
+    k.finish();
     chain
-}
-
-/// The scalars of a block.
-#[inline(always)]
-fn widen<T: Real, const C: usize>(
-    d: &mut [T],
-    t: T,
-    scratch: &Scratch<'_, T>,
-    j: usize,
-    (chain, p): (&mut Chain<T>, &mut T),
-) -> Slopes<T> {
-    let [mut widening, mut z, mut w] = [[T::ZERO; BLOCK]; 3];
-    for c in 0..C {
-        z[c] = scratch.z[j + c];
-        let (energy, before) = (scratch.energy[j + c], t + scratch.later[j + c]);
-        widening[c] = (z[c] / d[c]) / (before + energy);
-        d[c] = (z[c] / before).mul_add(z[c], d[c]);
-    }
-    for c in 0..C {
-        let before = scratch.w[j + c];
-        w[c] = widening[c].mul_add(*p, before);
-        *p = z[c].mul_add(before, *p);
-    }
-    let (slope, v) = chain.pass(d, &w);
-    Slopes { widening, z, slope, v }
 }

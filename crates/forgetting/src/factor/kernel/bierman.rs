@@ -6,13 +6,15 @@
 //! then                      P₊fᵀ = k / a'
 //! ```
 //!
-//! The columns are taken in blocks, so that the divisions of a block do not wait for each other
+//! The columns are taken in blocks of eight, so that the divisions of a block do not wait for each other
 //! and the gain k passes once through the registers for several columns. O(1.5 n²).
 //!
 //! G. J. Bierman, *Factorization Methods for Discrete Sequential Estimation*, 1977, chapter V.
 
-use super::block::{dots, rotate, with_width, PerColumn};
+#![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
+
 use super::layout::BLOCK;
+use super::tile::{block, block_mut, dots, eight, put_eight, rotate, Long, LongMut, PerColumn};
 use crate::factor::Measured;
 use crate::vector::Vector;
 use crate::Real;
@@ -28,58 +30,51 @@ impl<T: Real> Chain<T> {
     pub const START: Self = Self { s: T::ZERO, inverse_a: T::ONE };
 
     /// Goes through the columns of a block; returns the slope and v of each.
+    ///
+    /// Only the sum s passes from block to block; all else is done for all columns side by side.
     #[inline(always)]
-    pub fn pass(&mut self, d: &mut [T], w: &PerColumn<T>) -> (PerColumn<T>, PerColumn<T>) {
-        with_width!(d.len(), pass::<T>(self, d, w))
-    }
-
-    /// Only the sum s passes from one column to the next; all else is done for all side by side.
-    #[inline(always)]
-    fn extend<const C: usize>(&mut self, d: &mut [T; C], w: &[T; C]) -> ([T; C], [T; C]) {
-        let (mut v, mut a, mut product) = ([T::ZERO; C], [T::ZERO; C], [T::ZERO; C]);
-        for c in 0..C {
+    pub fn pass(&mut self, d: &mut PerColumn<T>, w: &PerColumn<T>) -> (PerColumn<T>, PerColumn<T>) {
+        let [mut v, mut a, mut product] = [[T::ZERO; BLOCK]; 3];
+        for c in 0..BLOCK {
             v[c] = d[c] * w[c];
             product[c] = w[c] * v[c];
         }
-        let mut s = self.s;
-        for c in 0..C {
-            s += product[c];
-            a[c] = T::ONE + s;
+        let sums = running_sums(&product);
+        for c in 0..BLOCK {
+            a[c] = T::ONE + (self.s + sums[c]);
         }
         let (mut a_before, mut inverse_before) = (T::ONE + self.s, self.inverse_a);
-        let mut slope = [T::ZERO; C];
-        for c in 0..C {
+        let mut slope = [T::ZERO; BLOCK];
+        for c in 0..BLOCK {
             let inverse_a = T::ONE / a[c];
             slope[c] = -(w[c] * inverse_before);
             d[c] = (d[c] * (a_before * inverse_a)).max(T::FLOOR);
             (a_before, inverse_before) = (a[c], inverse_a);
         }
-        *self = Self { s, inverse_a: inverse_before };
+        *self = Self { s: self.s + sums[BLOCK - 1], inverse_a: inverse_before };
         (slope, v)
     }
 
     /// At the end.
     #[inline(always)]
     pub fn measured(self, d: &[T], forgot: bool) -> Measured<T> {
+        self.with_largest(largest(d), forgot)
+    }
+
+    /// The same with the largest element of D known.
+    #[inline(always)]
+    pub fn with_largest(self, largest: T, forgot: bool) -> Measured<T> {
         let Self { s, inverse_a } = self;
-        let largest = largest(d);
         Measured { leverage: s, variance: T::ONE + s, inverse_variance: inverse_a, largest, forgot }
     }
 }
 
+/// The sums of the first one, two, … of eight numbers, none of more than three additions.
 #[inline(always)]
-fn pass<T: Real, const C: usize>(
-    chain: &mut Chain<T>,
-    d: &mut [T],
-    w: &PerColumn<T>,
-) -> (PerColumn<T>, PerColumn<T>) {
-    let (mut slope, mut v) = ([T::ZERO; BLOCK], [T::ZERO; BLOCK]);
-    if let (Some(d), Some(w)) = (d.first_chunk_mut::<C>(), w.first_chunk::<C>()) {
-        let found = chain.extend(d, w);
-        slope[..C].copy_from_slice(&found.0);
-        v[..C].copy_from_slice(&found.1);
-    }
-    (slope, v)
+fn running_sums<T: Real>(x: &PerColumn<T>) -> PerColumn<T> {
+    let (ab, cd, ef, gh) = (x[0] + x[1], x[2] + x[3], x[4] + x[5], x[6] + x[7]);
+    let abcd = ab + cd;
+    [x[0], ab, ab + x[2], abcd, abcd + x[4], abcd + ef, abcd + (ef + x[6]), abcd + (ef + gh)]
 }
 
 /// The largest of positive numbers, eight side by side.
@@ -95,13 +90,10 @@ pub fn largest<T: Real>(numbers: &[T]) -> T {
     most.iter().chain(rest).fold(T::ZERO, |most, &x| most.max(x))
 }
 
-/// D ← `growth`·D of a block.
+/// The D of block `b`, grown.
 #[inline(always)]
-pub fn grow<T: Real>(d: &mut [T], growth: T) {
-    match d.first_chunk_mut::<BLOCK>() {
-        Some(d) => d.iter_mut().for_each(|d| *d *= growth),
-        None => d.iter_mut().for_each(|d| *d *= growth),
-    }
+pub fn grown<T: Real>(diagonal: &[T], b: usize, growth: T) -> PerColumn<T> {
+    eight(diagonal, b, T::FLOOR).map(|d| d * growth)
 }
 
 /// P ← `growth`·P and P⁻¹ ← P⁻¹ + fᵀf; leaves P·fᵀ, with the P between the two, in `k`.
@@ -113,19 +105,20 @@ pub fn scale_and_measure<T: Real, V: Vector<T>, const GROUP: usize>(
     f: &[T],
     k: &mut [T],
 ) -> Chain<T> {
-    let n = diagonal.len();
+    let (f, mut k, blocks) = (Long::new(f), LongMut::zeros(k), diagonal.len().div_ceil(BLOCK));
     let mut chain = Chain::START;
-    let mut ahead = dots::<T, V, GROUP>(columns, 0, BLOCK.min(n), f);
-    for j in (0..n).step_by(BLOCK) {
-        let (w, width, next) = (ahead, BLOCK.min(n - j), j + BLOCK);
-        if next < n {
+    let mut ahead = dots::<T, V, GROUP>(block(columns, 0), &f);
+    for b in 0..blocks {
+        let w = ahead;
+        if b + 1 < blocks {
             // needs nothing of this block: the machine does both at once
-            ahead = dots::<T, V, GROUP>(columns, next, BLOCK.min(n - next), f);
+            ahead = dots::<T, V, GROUP>(block(columns, b + 1), &f);
         }
-        let d = &mut diagonal[j..j + width];
-        grow(d, growth);
-        let (slope, v) = chain.pass(d, &w);
-        rotate::<T, V, GROUP>(columns, j, width, k, (&slope, &v));
+        let mut d = grown(diagonal, b, growth);
+        let (slope, v) = chain.pass(&mut d, &w);
+        put_eight(diagonal, b, &d);
+        rotate::<T, V, GROUP>(block_mut(columns, b), &mut k, (&slope, &v));
     }
+    k.finish();
     chain
 }

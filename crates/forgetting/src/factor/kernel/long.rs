@@ -1,7 +1,6 @@
 //! Vectors of any length: products and sums.
 
-use super::block::with_width;
-use super::layout::BLOCK;
+use super::layout::FEW;
 use crate::vector::Vector;
 use crate::{Kernel, Lane, Real};
 
@@ -101,8 +100,8 @@ impl<T: Real> Kernel<T> for Arrive<'_, T> {
 #[inline(always)]
 pub fn products<T: Real, V: Vector<T>>(phi: &[T], theta: &[T]) -> (T, T) {
     let n = phi.len();
-    if n <= BLOCK {
-        return with_width!(n, few::<T>(phi, theta));
+    if n <= FEW {
+        return with_few!(n, few::<T>(phi, theta));
     }
     let (phi, phi_rest) = T::chunks(phi);
     let (theta, theta_rest) = T::chunks(&theta[..n]);
@@ -123,7 +122,7 @@ pub fn products<T: Real, V: Vector<T>>(phi: &[T], theta: &[T]) -> (T, T) {
     (product, square)
 }
 
-/// The same for N numbers, at most eight.
+/// The same for N numbers, at most ten.
 #[inline(always)]
 fn few<T: Real, const N: usize>(phi: &[T], theta: &[T]) -> (T, T) {
     match (phi.first_chunk::<N>(), theta.first_chunk::<N>()) {

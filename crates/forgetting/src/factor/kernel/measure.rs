@@ -3,13 +3,12 @@
 
 use super::along::{self, Scratch};
 use super::bierman::{self, Chain};
-use super::block::with_width;
-use super::layout::BLOCK;
+use super::layout::FEW;
 use super::long::add_scaled_by;
 use super::small::{Gain, Small};
 use crate::factor::{Form, Measured};
 use crate::vector::Vector;
-use crate::{Kernel, Real};
+use crate::{Kernel, Lane, One, Real};
 
 /// The factor and what goes with it.
 pub struct Place<'a, T> {
@@ -44,8 +43,8 @@ impl<T: Real> Kernel<T> for Measure<'_, T> {
     fn run<V: Vector<T>, const GROUP: usize>(mut self) -> Option<Measured<T>> {
         let n = self.f.len();
         let Self { ref mut place, form, f, squares, .. } = self;
-        let measured = if n <= BLOCK {
-            with_width!(n, few::<T>(place, form, f, squares))?
+        let measured = if n <= FEW {
+            with_few!(n, few::<T, T>(place, form, f, squares))?
         } else {
             many::<T, V, GROUP>(place, form, f, squares)?
         };
@@ -65,56 +64,58 @@ impl<T: Real> Place<'_, T> {
     }
 }
 
-/// For at most eight parameters.
+/// For at most ten parameters.
 #[inline(always)]
-fn few<T: Real, const N: usize>(
+fn few<T: Real, A: One<T>, const N: usize>(
     place: &mut Place<'_, T>,
     form: Form<T>,
     f: &[T],
     squares: T,
 ) -> Option<Measured<T>> {
     let (f, d) = (f.first_chunk::<N>()?, place.diagonal.first_chunk::<N>()?);
-    let mut small = Small::load(place.columns, d);
-    let (gain, forgot) = small.take(place, form, f, squares)?;
+    let mut small = Small::<A, N>::load(place.columns, d);
+    let (gain, forgot) = take(&mut small, place, form, &f.map(Lane::splat), squares)?;
     small.store(place.columns, place.diagonal.first_chunk_mut()?);
-    place.scratch[..N].copy_from_slice(&gain.k);
-    Some(gain.measured(forgot))
-}
-
-impl<T: Real, const N: usize> Small<T, N> {
-    /// Forgets and measures in registers; says whether anything was forgotten.
-    #[inline(always)]
-    pub fn take(
-        &mut self,
-        place: &mut Place<'_, T>,
-        form: Form<T>,
-        f: &[T; N],
-        squares: T,
-    ) -> Option<(Gain<T, N>, bool)> {
-        match form {
-            Form::Scale { growth } => {
-                place.make_room(growth, T::ZERO)?;
-                Some((self.scale_and_measure(growth, f), growth > T::ONE))
-            }
-            Form::Along { weight, .. } => {
-                let mut along = self.along(f);
-                let c = weight / along.information;
-                if !adds(c) {
-                    (along.z, along.q) = ([T::ZERO; N], [T::ZERO; N]);
-                    return Some((self.add_and_measure((T::ZERO, T::ONE), &along, f), false));
-                }
-                place.make_room(T::ONE, c * squares)?;
-                Some((self.add_and_measure((c, along.information / weight), &along, f), true))
-            }
-        }
+    for (k, gain) in place.scratch.iter_mut().zip(gain.k) {
+        *k = gain.get();
     }
+    Some(Measured {
+        leverage: gain.s.get(),
+        variance: gain.a.get(),
+        inverse_variance: gain.inverse_a.get(),
+        largest: gain.largest.get(),
+        forgot,
+    })
 }
 
-impl<T: Real, const N: usize> Gain<T, N> {
-    #[inline(always)]
-    fn measured(&self, forgot: bool) -> Measured<T> {
-        let Self { s, a, inverse_a, largest, .. } = *self;
-        Measured { leverage: s, variance: a, inverse_variance: inverse_a, largest, forgot }
+/// Forgets and measures in registers, unless there is no room; says whether anything was forgotten.
+#[inline(always)]
+pub fn take<T: Real, A: One<T>, const N: usize>(
+    small: &mut Small<A, N>,
+    place: &mut Place<'_, T>,
+    form: Form<T>,
+    f: &[A; N],
+    squares: T,
+) -> Option<(Gain<A, N>, bool)> {
+    let one = A::splat;
+    match form {
+        Form::Scale { growth } => {
+            place.make_room(growth, T::ZERO)?;
+            Some((small.scale_and_measure(one(growth), f), growth > T::ONE))
+        }
+        Form::Along { weight, .. } => {
+            let mut along = small.along(f);
+            let information = along.information.get();
+            let c = weight / information;
+            if !adds(c) {
+                (along.z, along.q) = ([one(T::ZERO); N], [one(T::ZERO); N]);
+                let nothing = (one(T::ZERO), one(T::ONE));
+                return Some((small.add_and_measure(nothing, &along, f), false));
+            }
+            place.make_room(T::ONE, c * squares)?;
+            let added = (one(c), one(information / weight));
+            Some((small.add_and_measure(added, &along, f), true))
+        }
     }
 }
 
@@ -125,7 +126,7 @@ fn adds<T: Real>(c: T) -> bool {
     c > T::ZERO && c.is_finite()
 }
 
-/// For more than eight.
+/// For more than ten.
 #[inline(always)]
 pub fn many<T: Real, V: Vector<T>, const GROUP: usize>(
     place: &mut Place<'_, T>,
@@ -149,8 +150,7 @@ pub fn many<T: Real, V: Vector<T>, const GROUP: usize>(
                 place.make_room(T::ONE, c * squares)?;
                 let mut scratch = Scratch::of(place.scratch, n);
                 let (columns, diagonal) = (&mut *place.columns, &mut *place.diagonal);
-                let chain =
-                    along::add_and_measure::<T, V, GROUP>(columns, diagonal, t, &mut scratch);
+                let chain = along::add_and_measure::<T, V>(columns, diagonal, t, &mut scratch);
                 (chain, true)
             } else {
                 (scale::<T, V, GROUP>(place, T::ONE, f), false)

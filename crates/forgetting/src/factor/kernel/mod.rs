@@ -1,15 +1,42 @@
 //! The loops over U: one function per operation, on plain slices.
 //!
-//! `columns` holds the columns of U, each padded with zeros below its unit diagonal ([`start`]
-//! says where one starts); every inner loop runs along columns, over neighbouring numbers.
+//! `columns` holds the columns of U in tiles ([`place`] says where a number is); every inner loop
+//! runs along columns, over neighbouring numbers.
 //!
 //! Each loop is a [`Kernel`](crate::Kernel): the number type decides with which vectors and over
 //! how many columns at a time it runs. The bits of the result depend on neither.
 
+/// Calls `$function::<.., N>` with a number N of parameters, 1 to 8, as a constant.
+macro_rules! with_width {
+    ($n:expr, $function:ident::<$($T:ident),+>$arguments:tt) => {
+        match $n {
+            1 => $function::<$($T,)+ 1>$arguments,
+            2 => $function::<$($T,)+ 2>$arguments,
+            3 => $function::<$($T,)+ 3>$arguments,
+            4 => $function::<$($T,)+ 4>$arguments,
+            5 => $function::<$($T,)+ 5>$arguments,
+            6 => $function::<$($T,)+ 6>$arguments,
+            7 => $function::<$($T,)+ 7>$arguments,
+            _ => $function::<$($T,)+ 8>$arguments,
+        }
+    };
+}
+
+/// The same for 1 to 10.
+macro_rules! with_few {
+    ($n:expr, $function:ident::<$($T:ident),+>$arguments:tt) => {
+        match $n {
+            9 => $function::<$($T,)+ 9>$arguments,
+            10 => $function::<$($T,)+ 10>$arguments,
+            n => with_width!(n, $function::<$($T),+>$arguments),
+        }
+    };
+}
+
 mod agee_turner;
 mod along;
+mod batch;
 mod bierman;
-mod block;
 #[cfg(feature = "alloc")]
 pub(crate) mod fleet;
 mod layout;
@@ -17,12 +44,15 @@ mod long;
 mod measure;
 mod small;
 mod steps;
+mod tile;
 mod told;
 mod triangular;
 
 #[cfg(feature = "alloc")]
 pub(crate) use layout::BLOCK;
-pub use layout::{column, column_mut, length, set_identity, start, visit};
+pub use layout::{
+    capacity, column, get_column, length, most, place, put_column, set_identity, visit,
+};
 pub(crate) use measure::{Measure, Place};
 pub(crate) use steps::Steps;
 pub use told::Told;

@@ -1,4 +1,4 @@
-//! One sample of at most eight parameters, in registers: of one stream, or of one in each lane.
+//! One sample of at most ten parameters, in registers: of one stream, or of one in each lane.
 //!
 //! Measuring is Bierman's update (see [`super::bierman`]), adding covariance along the regressor
 //! that of Agee and Turner (see [`super::agee_turner`]), both with one pass over U:
@@ -12,8 +12,8 @@
 
 #![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
 
-use super::layout::{start, BLOCK};
-use crate::{Lane, Real};
+use super::layout::place;
+use crate::{Lane, One, Real};
 
 /// U above its diagonal, by columns, and D.
 #[derive(Clone, Copy)]
@@ -96,10 +96,11 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
         self.u.last_pass(&self.d);
         let mut k = [A::splat(T::ZERO); N];
         for c in 0..N {
+            let less_w = -w[c];
             for i in 0..c {
                 let before = self.u.get(c, i);
                 // the reciprocal comes last
-                self.u.set(c, i, (-(w[c] * k[i])).mul_add(chain.inverse[c], before));
+                self.u.set(c, i, (less_w * k[i]).mul_add(chain.inverse[c], before));
                 k[i] = chain.v[c].mul_add(before, k[i]);
             }
             k[c] = chain.v[c];
@@ -129,8 +130,9 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
     {
         let (mut z, mut q, mut information) = (*f, *f, A::splat(T::ZERO));
         for c in (0..N).rev() {
+            let less_z = -z[c];
             for i in 0..c {
-                z[i] = (-z[c]).mul_add(self.u.get(c, i), z[i]);
+                z[i] = less_z.mul_add(self.u.get(c, i), z[i]);
             }
             q[c] = z[c] / self.d[c];
         }
@@ -169,11 +171,12 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
         self.u.last_pass(&self.d);
         let (mut k, mut x) = ([zero; N], [zero; N]);
         for c in 0..N {
+            let less_w = -w[c];
             for i in 0..c {
                 let before = self.u.get(c, i);
                 let widened = slope[c].mul_add(x[i], before);
                 x[i] = z[c].mul_add(before, x[i]);
-                self.u.set(c, i, (-(w[c] * k[i])).mul_add(chain.inverse[c], widened));
+                self.u.set(c, i, (less_w * k[i]).mul_add(chain.inverse[c], widened));
                 k[i] = chain.v[c].mul_add(widened, k[i]);
             }
             (x[c], k[c]) = (z[c], chain.v[c]);
@@ -215,26 +218,34 @@ impl<A: Copy, const N: usize> Chain<A, N> {
     }
 }
 
-impl<T: Real, const N: usize> Small<T, N> {
+impl<A: Copy, const N: usize> Small<A, N> {
     /// From the columns of U and from D.
     #[inline(always)]
-    pub fn load(columns: &[T], diagonal: &[T; N]) -> Self {
-        let mut u = [[T::ZERO; N]; N];
+    pub fn load<T: Real>(columns: &[T], diagonal: &[T; N]) -> Self
+    where
+        A: Lane<T>,
+    {
+        let mut u = [[A::splat(T::ZERO); N]; N];
         for c in 0..N {
-            let column = &columns[start(c)..start(c) + BLOCK];
-            u[c][..c].copy_from_slice(&column[..c]);
+            for i in 0..c {
+                u[c][i] = A::splat(columns[place::<T>(i, c)]);
+            }
         }
-        Self { u, d: *diagonal }
+        Self { u, d: diagonal.map(A::splat) }
     }
 
     /// Back to where it came from.
     #[inline(always)]
-    pub fn store(&self, columns: &mut [T], diagonal: &mut [T; N]) {
+    pub fn store<T: Real>(&self, columns: &mut [T], diagonal: &mut [T; N])
+    where
+        A: One<T>,
+    {
         for c in 0..N {
-            let column = &mut columns[start(c)..start(c) + BLOCK];
-            column[..c].copy_from_slice(&self.u[c][..c]);
+            for i in 0..c {
+                columns[place::<T>(i, c)] = self.u[c][i].get();
+            }
         }
-        *diagonal = self.d;
+        *diagonal = self.d.map(One::get);
     }
 }
 

@@ -1,8 +1,12 @@
 //! Products and solutions with U and Uᵀ, and f·P·fᵀ. O(n²/2) each.
 
-use super::block::{add_columns, dots, load_triangle, with_width, PerColumn};
-use super::layout::BLOCK;
+#![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
+
+use super::layout::{BLOCK, FEW};
 use super::small::Small;
+use super::tile::{
+    add_columns, block, dots, eight, put_eight, triangle, Long, LongMut, PerColumn, Tile,
+};
 use crate::vector::Vector;
 use crate::{Kernel, Real};
 
@@ -34,24 +38,23 @@ pub fn leverage_of<T: Real, V: Vector<T>, const GROUP: usize>(
     diagonal: &[T],
     f: &[T],
 ) -> T {
-    if f.len() <= BLOCK {
-        return with_width!(f.len(), few::<T>(columns, diagonal, f));
+    if f.len() <= FEW {
+        return with_few!(f.len(), few_leverage::<T>(columns, diagonal, f));
     }
-    let mut sum = T::ZERO;
-    for j in (0..diagonal.len()).step_by(BLOCK) {
-        let d = &diagonal[j..diagonal.len().min(j + BLOCK)];
-        let w = dots::<T, V, GROUP>(columns, j, d.len(), f);
-        for (&d, &w) in d.iter().zip(&w) {
-            sum = (d * w).mul_add(w, sum);
+    let (long, mut sum) = (Long::new(f), T::ZERO);
+    for b in 0..f.len().div_ceil(BLOCK) {
+        let (w, d) = (dots::<T, V, GROUP>(block(columns, b), &long), eight(diagonal, b, T::ZERO));
+        for c in 0..BLOCK {
+            sum = (d[c] * w[c]).mul_add(w[c], sum);
         }
     }
     sum
 }
 
 #[inline(always)]
-fn few<T: Real, const N: usize>(columns: &[T], diagonal: &[T], f: &[T]) -> T {
+fn few_leverage<T: Real, const N: usize>(columns: &[T], diagonal: &[T], f: &[T]) -> T {
     match (diagonal.first_chunk::<N>(), f.first_chunk::<N>()) {
-        (Some(d), Some(f)) => Small::load(columns, d).leverage(f),
+        (Some(d), Some(f)) => Small::<T, N>::load(columns, d).leverage(f),
         _ => T::ZERO,
     }
 }
@@ -73,10 +76,24 @@ impl<T: Real> Kernel<T> for MultiplyTransposed<'_, T> {
     #[inline(always)]
     fn run<V: Vector<T>, const GROUP: usize>(self) {
         let Self { columns, x } = self;
-        for j in (0..x.len()).step_by(BLOCK).rev() {
-            let width = BLOCK.min(x.len() - j);
-            let w = dots::<T, V, GROUP>(columns, j, width, x);
-            x[j..j + width].copy_from_slice(&w[..width]);
+        if x.len() <= BLOCK {
+            return with_width!(x.len(), few_products::<T>(columns, x));
+        }
+        for b in (0..x.len().div_ceil(BLOCK)).rev() {
+            let w = dots::<T, V, GROUP>(block(columns, b), &Long::new(x));
+            put_eight(x, b, &w);
+        }
+    }
+}
+
+#[inline(always)]
+fn few_products<T: Real, const N: usize>(columns: &[T], x: &mut [T]) {
+    if let Some(x) = x.first_chunk_mut::<N>() {
+        let u = Small::<T, N>::load(columns, x).u;
+        for c in (0..N).rev() {
+            for i in 0..c {
+                x[c] = u[c][i].mul_add(x[i], x[c]);
+            }
         }
     }
 }
@@ -98,33 +115,48 @@ impl<T: Real> Kernel<T> for Solve<'_, T> {
     #[inline(always)]
     fn run<V: Vector<T>, const GROUP: usize>(self) {
         let Self { columns, x } = self;
-        for j in (0..x.len()).step_by(BLOCK).rev() {
-            let width = BLOCK.min(x.len() - j);
-            let factors = with_width!(width, solve_triangle::<T>(columns, j, x));
-            add_columns::<T, V, GROUP>(columns, j, width, x, &factors);
+        if x.len() <= BLOCK {
+            return with_width!(x.len(), few_solutions::<T>(columns, x));
         }
+        let blocks = x.len().div_ceil(BLOCK);
+        let mut x = LongMut::new(x);
+        for b in (0..blocks).rev() {
+            let block = block(columns, b);
+            let (solved, factors) = solve_triangle(block, b, x.eight(b));
+            add_columns::<T, V>(block, &mut x, &factors);
+            *x.eight(b) = solved;
+        }
+        x.finish();
     }
 }
 
-/// The triangle of a block: `x` from j on solved; returns it with the opposite sign.
 #[inline(always)]
-pub fn solve_triangle<T: Real, const C: usize>(
-    columns: &[T],
-    j: usize,
-    x: &mut [T],
-) -> PerColumn<T> {
-    let mut factors = [T::ZERO; BLOCK];
-    let Some(x) = x[j..].first_chunk_mut::<C>() else { return factors };
-    let u = load_triangle::<T, C>(columns, j);
-    let mut rest = *x;
+fn few_solutions<T: Real, const N: usize>(columns: &[T], x: &mut [T]) {
+    if let Some(x) = x.first_chunk_mut::<N>() {
+        *x = solve(&Small::<T, N>::load(columns, x).u, *x);
+    }
+}
+
+/// The triangle of a block: the solution there, and the same with the opposite sign.
+#[inline(always)]
+pub fn solve_triangle<T: Real>(
+    block: &[Tile<T>],
+    b: usize,
+    x: &PerColumn<T>,
+) -> (PerColumn<T>, PerColumn<T>) {
+    let solved = solve(&triangle(block, b), *x);
+    (solved, solved.map(|x| -x))
+}
+
+#[inline(always)]
+fn solve<T: Real, const C: usize>(u: &[[T; C]; C], mut x: [T; C]) -> [T; C] {
     for c in (0..C).rev() {
-        factors[c] = -rest[c];
+        let less = -x[c];
         for i in 0..c {
-            rest[i] = factors[c].mul_add(u[c][i], rest[i]);
+            x[i] = less.mul_add(u[c][i], x[i]);
         }
     }
-    *x = rest;
-    factors
+    x
 }
 
 /// `x` ← U·`x`
@@ -144,29 +176,28 @@ impl<T: Real> Kernel<T> for Multiply<'_, T> {
     #[inline(always)]
     fn run<V: Vector<T>, const GROUP: usize>(self) {
         let Self { columns, x } = self;
-        for j in (0..x.len()).step_by(BLOCK) {
-            let width = BLOCK.min(x.len() - j);
-            let factors = with_width!(width, multiply_triangle::<T>(columns, j, x));
-            add_columns::<T, V, GROUP>(columns, j, width, x, &factors);
+        if x.len() <= BLOCK {
+            return with_width!(x.len(), few_sums::<T>(columns, x));
         }
+        let blocks = x.len().div_ceil(BLOCK);
+        let mut x = LongMut::new(x);
+        for b in 0..blocks {
+            // the diagonal puts them back
+            let factors = core::mem::replace(x.eight(b), [T::ZERO; BLOCK]);
+            add_columns::<T, V>(block(columns, b), &mut x, &factors);
+        }
+        x.finish();
     }
 }
 
-/// The triangle of a block: `x` from j on multiplied; returns it as it was.
 #[inline(always)]
-fn multiply_triangle<T: Real, const C: usize>(
-    columns: &[T],
-    j: usize,
-    x: &mut [T],
-) -> PerColumn<T> {
-    let mut factors = [T::ZERO; BLOCK];
-    let Some(x) = x[j..].first_chunk_mut::<C>() else { return factors };
-    let u = load_triangle::<T, C>(columns, j);
-    for c in 0..C {
-        factors[c] = x[c];
-        for i in 0..c {
-            x[i] = factors[c].mul_add(u[c][i], x[i]);
+fn few_sums<T: Real, const N: usize>(columns: &[T], x: &mut [T]) {
+    if let Some(x) = x.first_chunk_mut::<N>() {
+        let u = Small::<T, N>::load(columns, x).u;
+        for c in 0..N {
+            for i in 0..c {
+                x[i] = x[c].mul_add(u[c][i], x[i]);
+            }
         }
     }
-    factors
 }

@@ -57,14 +57,17 @@ impl<'a, T: Real, A: Abreast<T>, const N: usize> State<'a, T, A, N> {
         self.lines = &mut lines[..Self::LAYOUT.length()];
     }
 
-    /// All numbers.
+    /// All numbers, if some streams are to get them back.
     #[inline(always)]
-    fn copy(&self) -> [A; MOST] {
+    fn copy_unless_all(&self, used: A::Mask) -> Option<[A; MOST]> {
+        if A::all(used) {
+            return None;
+        }
         let mut copy = [A::splat(T::ZERO); MOST];
         for at in 0..Self::LAYOUT.length() {
             copy[at] = self.read(at);
         }
-        copy
+        Some(copy)
     }
 
     /// The trace of P, summed as [`Factor::trace`](crate::Factor::trace) does.
@@ -142,15 +145,16 @@ fn scale<T: Real, A: Abreast<T>, const N: usize>(
     let bound = small.u.read(layout.bound());
     let room = (growth, A::splat(T::ZERO));
     let (bound, used) = make_room(bound, room, accepted, || small.u.trace());
-    if A::all(used) {
-        let gain = small.scale_and_measure(growth, f);
-        return correct(small, &gain, bound, error);
-    }
-    let before = small.u.copy();
+    let before = small.u.copy_unless_all(used);
     let gain = small.scale_and_measure(growth, f);
-    let fate = Fate { accepted, informed: accepted, used };
-    let outcome = correct_some(small, &gain, (bound, error), (&before, used));
-    report::mixed(&fate, (y, squares), outcome, error)
+    let outcome = correct(small, &gain, (bound, error), (before.as_ref(), used));
+    match before {
+        None => outcome,
+        Some(_) => {
+            let fate = Fate { accepted, informed: accepted, used };
+            report::mixed(&fate, (y, squares), outcome, error)
+        }
+    }
 }
 
 /// P̄ = P + weight·fᵀ(fRfᵀ)⁻¹f.
@@ -179,25 +183,26 @@ fn along<T: Real, A: Abreast<T>, const N: usize>(
     let room = (one, c * squares);
     let (bound, used) = make_room(bound, room, informed, || small.u.trace());
     small.u.read_again();
-    if A::all(used) {
-        let gain = small.add_and_measure((c, t), &along, f);
-        return correct(small, &gain, bound, error);
-    }
-    let before = small.u.copy();
-    let silent = if with_leverage { small.leverage(f) } else { error };
+    let before = small.u.copy_unless_all(used);
+    let silent = match before {
+        Some(_) if with_leverage => small.leverage(f),
+        _ => error,
+    };
     let gain = small.add_and_measure((c, t), &along, f);
-    let fate = Fate { accepted, informed, used };
-    let outcome = correct_some(small, &gain, (bound, error), (&before, used));
-    report::mixed(&fate, (y, squares), outcome, silent)
+    let outcome = correct(small, &gain, (bound, error), (before.as_ref(), used));
+    match before {
+        None => outcome,
+        Some(_) => report::mixed(&Fate { accepted, informed, used }, (y, squares), outcome, silent),
+    }
 }
 
-/// θ ← θ + P·fᵀe.
+/// θ ← θ + P·fᵀe. The streams that did not use their samples become again what they were `before`.
 #[inline(always)]
 fn correct<T: Real, A: Abreast<T>, const N: usize>(
     small: Small<A, N, State<'_, T, A, N>>,
     gain: &Gain<A, N>,
-    bound: A,
-    error: A,
+    (bound, error): (A, A),
+    (before, used): (Option<&[A; MOST]>, A::Mask),
 ) -> Outcome<A> {
     let (layout, mut state) = (const { Layout::new(N) }, small.u);
     let step = error * gain.inverse_a;
@@ -206,27 +211,10 @@ fn correct<T: Real, A: Abreast<T>, const N: usize>(
         state.write(at, step.mul_add(gain.k[i], state.read(at)));
     }
     state.write(layout.bound(), bound);
-    Outcome { error, leverage: gain.s, codes: None }
-}
-
-/// The same for the streams in `used`; the others become again what they were `before`.
-#[inline(always)]
-fn correct_some<T: Real, A: Abreast<T>, const N: usize>(
-    mut small: Small<A, N, State<'_, T, A, N>>,
-    gain: &Gain<A, N>,
-    (bound, error): (A, A),
-    (before, used): (&[A; MOST], A::Mask),
-) -> Outcome<A> {
-    let layout = const { Layout::new(N) };
-    let state = &mut small.u;
-    let step = error * gain.inverse_a;
-    for i in 0..N {
-        let at = layout.theta() + i;
-        state.write(at, step.mul_add(gain.k[i], state.read(at)));
-    }
-    state.write(layout.bound(), bound);
-    for at in 0..layout.length() {
-        state.write(at, A::select(used, state.read(at), before[at]));
+    if let Some(before) = before {
+        for at in 0..layout.length() {
+            state.write(at, A::select(used, state.read(at), before[at]));
+        }
     }
     Outcome { error, leverage: gain.s, codes: None }
 }

@@ -4,7 +4,6 @@
 //! decides by a branch is decided here for each lane by a mask. A stream that does not use its
 //! sample is written back as it was.
 
-use super::block::with_width;
 use super::layout::BLOCK;
 use crate::factor::{DeadZone, Form};
 use crate::fleet::{Layout, Line, Part, Samples, Told, REFUSED};

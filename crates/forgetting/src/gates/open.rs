@@ -1,0 +1,49 @@
+//! Lets every sample through.
+//!
+//! ```text
+//! update, always
+//! ```
+//!
+//! | symbol | name | range | default |
+//! |---|---|---|---|
+//!
+//! - Cost: none. State: none.
+//! - Use it where the rule itself knows what to leave alone, as `subspace` does.
+
+use super::{AboutGate, Answer, Gate};
+use crate::parameter::{Value, Values};
+use crate::rates::Evidence;
+use crate::{Error, Memory};
+use core::marker::PhantomData;
+
+/// The registry entry.
+pub const ABOUT: AboutGate =
+    AboutGate { name: "open", type_name: "Open", source: include_str!("open.rs"), parameters: &[] };
+
+/// Always open; see [`self`](crate::gates::open).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Open<M>(PhantomData<M>);
+
+impl<M> Open<M> {
+    /// The gate.
+    pub fn new() -> Self {
+        Self(PhantomData)
+    }
+}
+
+impl<M: Memory> Gate<M> for Open<M> {
+    fn configure(_: &dyn Values, _: M) -> Result<Self, Error> {
+        Ok(Self::new())
+    }
+
+    fn describe(&self, _: &mut dyn FnMut(&'static str, Value<'_>)) {}
+
+    fn is_open(&self) -> bool {
+        true
+    }
+
+    #[inline]
+    fn answer(&self, _: &Evidence<'_, '_, M>) -> Result<Answer, Error> {
+        Ok(Answer::Update)
+    }
+}
