@@ -81,7 +81,7 @@ impl<T: Real> Report<T> {
         if let Some(skipped) = &mut told.skipped {
             let skipped = &mut skipped[streams];
             if self.all {
-                skipped.fill(0);
+                clear(skipped);
             } else {
                 for (lane, code) in skipped.iter_mut().enumerate() {
                     *code = self.codes.get(lane).to_f64() as u8;
@@ -95,10 +95,20 @@ impl<T: Real> Report<T> {
 /// Writes the first numbers of `line`.
 #[inline(always)]
 fn put<T: Real>(place: &mut [T], line: &Line<T>) {
-    let numbers = line.0.as_ref();
-    if place.len() == numbers.len() {
-        place.copy_from_slice(numbers);
-    } else {
-        place.copy_from_slice(&numbers[..place.len()]);
+    match T::chunks_mut(place).0 {
+        // no loop and no call
+        [chunk, ..] => *chunk = line.0,
+        [] => place.copy_from_slice(&line.0.as_ref()[..place.len()]),
+    }
+}
+
+#[inline(always)]
+fn clear(codes: &mut [u8]) {
+    let (eights, rest) = codes.as_chunks_mut::<8>();
+    for eight in eights {
+        *eight = [0; 8];
+    }
+    for code in rest {
+        *code = 0;
     }
 }
