@@ -38,7 +38,7 @@ pub trait Real:
     + DivAssign
 {
     /// The numbers of one vector: 8 of eight bytes or 16 of four.
-    type Chunk: Copy + AsRef<[Self]> + AsMut<[Self]>;
+    type Chunk: Copy + Debug + Send + Sync + AsRef<[Self]> + AsMut<[Self]>;
     /// A vector that needs no particular instructions.
     type Lanes: Vector<Self>;
 
