@@ -77,7 +77,7 @@ def improper(n):
 
 def follow(setting, phi, y, theta0=None, **options):
     """Run the rule over φ (T, p, n) and y (T, p): the run, and its record with its own Γ."""
-    samples, rows, n = phi.shape
+    _, rows, n = phi.shape
     est = fg.RLS(
         n,
         rule=setting.rule,

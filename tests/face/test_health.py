@@ -112,3 +112,34 @@ def test_the_watch_changes_no_estimate_and_is_saved_with_it():
     assert plain.health().status == "ok"
     seen.reset()
     assert seen.watched()["samples"] == 0
+
+
+@pytest.mark.parametrize("n", [1, 3])
+def test_a_rate_that_forgets_much_at_once_is_no_windup(n):
+    """P grows many times over, with all the data it needs."""
+    rates = [
+        lambda evidence: 0.999 if evidence.samples < 1500 else 0.7,
+        fg.UnityZone(),
+        fg.Fortescue(memory=50.0, noise_variance=0.01, smallest=0.3),
+    ]
+    random = np.random.default_rng(n)
+    for rate in rates:
+        phi = random.normal(size=(2500, n))
+        theta = np.where(np.arange(2500) < 1000, 1.0, 6.0)
+        y = phi.sum(axis=1) * theta + 0.1 * random.normal(size=2500)
+        est = fg.RLS(n, rule=fg.Exponential(rate), monitor=True)
+        run = est.run(phi, y, outputs=["windup", "variance"])
+        assert run.variance[1000:].max() > 10 * run.variance[999].min()
+        assert not run.windup.any(), rate
+
+
+def test_a_trickle_does_not_end_the_alarm_at_once():
+    """Noise of the regressor tells something beside a variance that has grown by far."""
+    random = np.random.default_rng(0)
+    est = fg.RLS(1, rule=fg.Exponential(0.9), monitor=True)
+    est.run(random.normal(size=(300, 1)), random.normal(size=300))
+    run = est.run(np.zeros((100, 1)), np.zeros(100), outputs=["windup"])
+    assert run.windup[-1] and est.health().growth > 1e3
+    share = 0.05  # of its own variance, in each block of ten samples
+    trickle = np.sqrt(share / 10 / est.covariance[0, 0])
+    assert est.run(np.full((9, 1), trickle), np.zeros(9), outputs=["windup"]).windup.all()

@@ -10,9 +10,12 @@
 //! ```
 //!
 //! A direction has wound up when its variance is more than ten times what it was when it last
-//! received information, it receives none now, and the rule sets it no bound. The largest eigenvector of P is the one to
-//! watch: whatever winds up becomes it. A block is N = max(10, 2n, half the memory) samples, so
-//! that what costs O(n²) is spread over as many samples.
+//! received information, it receives none now, and the rule sets it no bound. The further it has
+//! wound up, the larger is the share asked for to end that, up to what holds the variance where it
+//! is: beside a large variance the noise of a regressor tells something, too. The largest
+//! eigenvector of P is the one to watch: whatever winds up becomes it. A block is
+//! N = max(10, 2n, half the memory) samples, so that what costs O(n²) is spread over as many
+//! samples.
 
 use crate::factor::kernel::dot;
 use crate::state::{is_finite, State, Visitor};
@@ -22,6 +25,9 @@ use crate::{Factor, Memory, Real};
 pub const FACTOR: f64 = 10.0;
 /// Part of its own variance that a direction must be able to tell to count as informed.
 pub const SHARE: f64 = 0.01;
+/// The same for a direction that has wound up by far. Where a block's information and forgetting
+/// balance it is about one half.
+pub const RECOVERY: f64 = 0.3;
 
 /// The state of the watch.
 #[derive(Clone, Debug)]
@@ -124,9 +130,25 @@ impl<M: Memory> Monitor<M> {
     /// Whether the weakest direction has wound up.
     #[inline]
     pub fn windup(&self) -> bool {
-        !self.bounded
-            && !self.is_informed()
-            && self.variance > M::Real::from_f64(FACTOR) * self.reference
+        !self.bounded && self.has_grown() && !self.is_informed()
+    }
+
+    /// Whether σ² is so much larger than when v was last informed.
+    #[inline]
+    fn has_grown(&self) -> bool {
+        self.variance > M::Real::from_f64(FACTOR) * self.reference
+    }
+
+    /// The share that v must be told of to count as informed: the further it has wound up, the
+    /// more.
+    #[inline]
+    fn needed(&self) -> M::Real {
+        let (share, recovery) = (M::Real::from_f64(SHARE), M::Real::from_f64(RECOVERY));
+        if self.bounded {
+            return share;
+        }
+        let excess = self.variance / (M::Real::from_f64(FACTOR) * self.reference);
+        (share * excess).max(share).min(recovery)
     }
 
     /// How many of `samples` samples may pass before it looks at P again, which it does after the
@@ -144,8 +166,7 @@ impl<M: Memory> Monitor<M> {
 
     #[inline]
     fn is_informed(&self) -> bool {
-        let told = (self.information[0] + self.information[1]) * self.variance;
-        told >= M::Real::from_f64(SHARE)
+        (self.information[0] + self.information[1]) * self.variance >= self.needed()
     }
 
     /// Takes note of a sample, none if it was left out, and of P after it.
@@ -208,19 +229,22 @@ impl<M: Memory> Monitor<M> {
     #[cold]
     fn turn(&mut self, factor: &Factor<M>) {
         let before = self.variance;
-        let informed = self.information[0] * before >= M::Real::from_f64(SHARE);
-        let same = self.look(factor);
+        let informed = self.information[0] * before >= self.needed();
+        self.look(factor);
         if informed {
             self.informed = self.samples;
-            self.reference = if same { before.min(self.variance) } else { self.variance };
+            // no direction had a larger variance before
+            self.reference = before;
         }
         self.reference = self.reference.min(self.variance);
-        self.information = [M::Real::ZERO, self.information[0]];
+        // a trickle along the old direction may be none along the new one, of a larger variance
+        let last = if informed { self.information[0] } else { M::Real::ZERO };
+        self.information = [M::Real::ZERO, last];
         self.in_block = 0;
     }
 
-    /// Looks for the weakest direction again; says whether it is still about the same. O(n²).
-    fn look(&mut self, factor: &Factor<M>) -> bool {
+    /// Looks for the weakest direction again. O(n²).
+    fn look(&mut self, factor: &Factor<M>) {
         let n = factor.parameters();
         let half = M::Real::from_f64(0.5);
         self.length = M::Real::from_f64((2 * n).max(10) as f64).max(half * self.weight);
@@ -238,8 +262,6 @@ impl<M: Memory> Monitor<M> {
             direction.copy_from_slice(before);
         }
         self.variance = factor.leverage(direction);
-        let overlap = dot(direction, before);
-        overlap * overlap > M::Real::from_f64(0.8)
     }
 
     /// What the watch has seen.
