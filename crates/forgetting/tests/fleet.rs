@@ -169,20 +169,20 @@ fn up_to_eight_parameters_the_bits_are_those_of_estimators() {
     }
 }
 
-/// Sums over columns are taken in another order than the estimator takes them: measured 4e-12
-/// and 2e-3 over these samples, of which some directions are hardly excited.
-const ROUNDING: [f64; 2] = [1e-10, 2e-2];
+/// Sums over columns are taken in another order than the estimator takes them: measured 5e-15 and
+/// 2.5e-6.
+const ROUNDING: [f64; 2] = [1e-13, 1e-4];
 
 #[test]
 fn above_the_difference_is_rounding() {
+    let mut most = [0.0_f64; 2];
     for rule in RULES {
         for n in [9, 11, 16, 23] {
-            let most = difference::<f64>(rule, n, 0.95, 60).0;
-            assert!(most < ROUNDING[0], "{rule}, n = {n}, f64: {most:e}");
-            let most = difference::<f32>(rule, n, 0.95, 60).0;
-            assert!(most < ROUNDING[1], "{rule}, n = {n}, f32: {most:e}");
+            most[0] = most[0].max(difference::<f64>(rule, n, 0.95, 60).0);
+            most[1] = most[1].max(difference::<f32>(rule, n, 0.95, 60).0);
         }
     }
+    assert!(most[0] < ROUNDING[0] && most[1] < ROUNDING[1], "{most:?}");
 }
 
 /// P grows until there is no room: the bound is made tight as often as an estimator does, and in
