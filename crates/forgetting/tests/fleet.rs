@@ -75,19 +75,19 @@ fn given<T: Real>(step: usize, n: usize) -> Given<T> {
     let at = |i: usize| T::from_f64(noise(step * 7919 + i));
     let mut phi: Vec<T> = (0..COUNT * n).map(at).collect();
     let mut y: Vec<T> = (0..COUNT).map(|i| at(i + 5000)).collect();
-    for stream in 0..COUNT {
+    for (stream, y) in y.iter_mut().enumerate() {
         let first = stream * n;
         match (step + 3 * stream) % 29 {
             0 => phi[first..first + n].fill(T::ZERO),
-            1 => y[stream] = T::from_f64(f64::NAN),
+            1 => *y = T::from_f64(f64::NAN),
             2 => phi[first] = T::from_f64(f64::NAN),
             3 => phi[first + n - 1] = T::from_f64(f64::INFINITY),
-            4 => y[stream] = T::from_f64(f64::NEG_INFINITY),
+            4 => *y = T::from_f64(f64::NEG_INFINITY),
             5 => phi[first] = T::CEILING,
             _ => {}
         }
     }
-    Given { phi, y, mask: (0..COUNT).map(|stream| (step + stream) % 11 > 0).collect() }
+    Given { phi, y, mask: (0..COUNT).map(|stream| !(step + stream).is_multiple_of(11)).collect() }
 }
 
 /// What a fleet is to tell of a sample: error, leverage and code.
