@@ -177,8 +177,6 @@ fn several<T: Number>(
     let (most, n) = (MOST.min(y.len()), estimator.theta().len());
     let taken = outputs
         .with_thetas((most, n), |thetas| estimator.advance(phi, y, &mut told[..most], thetas));
-    for told in &told[..taken] {
-        outputs.note(&estimator.update_of(told));
-    }
+    outputs.note_all(estimator, &told[..taken]);
     taken
 }

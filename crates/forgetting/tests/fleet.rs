@@ -75,19 +75,19 @@ fn given<T: Real>(step: usize, n: usize) -> Given<T> {
     let at = |i: usize| T::from_f64(noise(step * 7919 + i));
     let mut phi: Vec<T> = (0..COUNT * n).map(at).collect();
     let mut y: Vec<T> = (0..COUNT).map(|i| at(i + 5000)).collect();
-    for (stream, (phi, y)) in phi.chunks_exact_mut(n).zip(&mut y).enumerate() {
+    for (stream, y) in y.iter_mut().enumerate() {
+        let first = stream * n;
         match (step + 3 * stream) % 29 {
-            0 => phi.fill(T::ZERO),
+            0 => phi[first..first + n].fill(T::ZERO),
             1 => *y = T::from_f64(f64::NAN),
-            2 => phi[0] = T::from_f64(f64::NAN),
-            3 => phi[n - 1] = T::from_f64(f64::INFINITY),
+            2 => phi[first] = T::from_f64(f64::NAN),
+            3 => phi[first + n - 1] = T::from_f64(f64::INFINITY),
             4 => *y = T::from_f64(f64::NEG_INFINITY),
-            5 => phi[0] = T::CEILING,
+            5 => phi[first] = T::CEILING,
             _ => {}
         }
     }
-    let mask = (0..COUNT).map(|stream| !(step + stream).is_multiple_of(11)).collect();
-    Given { phi, y, mask }
+    Given { phi, y, mask: (0..COUNT).map(|stream| !(step + stream).is_multiple_of(11)).collect() }
 }
 
 /// What a fleet is to tell of a sample: error, leverage and code.
@@ -169,20 +169,20 @@ fn up_to_eight_parameters_the_bits_are_those_of_estimators() {
     }
 }
 
-/// Sums over columns are taken in another order than the estimator takes them: measured 4e-12
-/// and 2e-3 over these samples, of which some directions are hardly excited.
-const ROUNDING: [f64; 2] = [1e-10, 2e-2];
+/// Sums over columns are taken in another order than the estimator takes them: measured 5e-15 and
+/// 2.5e-6.
+const ROUNDING: [f64; 2] = [1e-13, 1e-4];
 
 #[test]
 fn above_the_difference_is_rounding() {
+    let mut most = [0.0_f64; 2];
     for rule in RULES {
         for n in [9, 11, 16, 23] {
-            let most = difference::<f64>(rule, n, 0.95, 60).0;
-            assert!(most < ROUNDING[0], "{rule}, n = {n}, f64: {most:e}");
-            let most = difference::<f32>(rule, n, 0.95, 60).0;
-            assert!(most < ROUNDING[1], "{rule}, n = {n}, f32: {most:e}");
+            most[0] = most[0].max(difference::<f64>(rule, n, 0.95, 60).0);
+            most[1] = most[1].max(difference::<f32>(rule, n, 0.95, 60).0);
         }
     }
+    assert!(most[0] < ROUNDING[0] && most[1] < ROUNDING[1], "{most:?}");
 }
 
 /// P grows until there is no room: the bound is made tight as often as an estimator does, and in
