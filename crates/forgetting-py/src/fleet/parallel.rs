@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use std::sync::OnceLock;
 
 /// Numbers of the state from which on a second core gains more than it costs to wake it.
-const LARGE: usize = 1 << 18;
+const LARGE: usize = 1 << 19;
 /// Parts for each core, so that one that is held up does not hold up the others.
 const SHARES: usize = 4;
 
