@@ -11,7 +11,8 @@ pub trait Kernel<T: Real> {
     /// How many parameters it is for.
     fn size(&self) -> usize;
     /// The loop, with vectors `V`, over at most `GROUP` columns of U at a time: as many as the
-    /// registers hold. The result depends on neither.
+    /// registers hold. The result depends on neither. 8 columns and more are only for kernels of
+    /// more than [`FEW`](crate::factor::kernel::FEW) parameters.
     fn run<V: Vector<T>, const GROUP: usize>(self) -> Self::Output;
 }
 

@@ -51,7 +51,7 @@ mod triangular;
 #[cfg(feature = "alloc")]
 pub(crate) use layout::BLOCK;
 pub use layout::{
-    capacity, column, get_column, length, most, place, put_column, set_identity, visit,
+    capacity, column, get_column, length, most, place, put_column, set_identity, visit, FEW,
 };
 pub(crate) use measure::{Measure, Place};
 pub(crate) use steps::Steps;
