@@ -71,14 +71,16 @@ def test_the_page_has_its_parts(found, tmp_path):
         "Output and prediction: y1",
         "Output and prediction: y2",
         "Parameters over time: y2",
-        "Forgetting and covariance",
+        "When to trust it",
+        "Directions of 3 that the last",
+        "Alarms and samples left out",
         "eigenvalues of P",
         "forgetting factor",
     ):
         assert part in text, part
     assert all(verdict in text for verdict in found.verdicts)
-    # One picture of signals and one of parameters for each output, one of the covariance.
-    assert html.count("<svg ") == 5
+    # One of signals and one of parameters for each output, one of trust, one of forgetting.
+    assert html.count("<svg ") == 6
     assert "prefers-color-scheme: dark" in html
 
 
@@ -127,7 +129,9 @@ def test_plots_take_and_return_axes(found):
     for draw in (plot.prediction, plot.error):
         assert draw(found, 1, ax) is ax
     assert plot.parameter(found, 0, 1, ax) is ax
-    assert plot.eigenvalues(found, ax) is ax and plot.forgetting_factor(found, ax) is ax
+    for draw in (plot.eigenvalues, plot.forgetting_factor, plot.rank, plot.excited, plot.alarms):
+        own = plt.figure().add_subplot()
+        assert draw(found, own) is own
     assert plot.prediction(found).get_ylabel() == "y1"
     plt.close("all")
 

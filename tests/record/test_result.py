@@ -134,6 +134,9 @@ def test_summary_is_json(line):
         "used": 2,
         "missing": 0,
         "dead_zone": 0,
+        "within_bound": 0,
+        "held": 0,
+        "frozen": 0,
         "scored": 0,
     }
 

@@ -17,7 +17,7 @@
 //! N = max(10, 2n, half the memory) samples, so that what costs O(n²) is spread over as many
 //! samples.
 
-use crate::factor::kernel::dot;
+use crate::factor::kernel::{add_scaled, dot};
 use crate::state::{is_finite, State, Visitor};
 use crate::{Factor, Memory, Real};
 
@@ -41,6 +41,8 @@ pub struct Monitor<M: Memory> {
     reference: M::Real,
     /// Σ (φ̄ v)² in this block and in the one before
     information: [M::Real; 2],
+    /// Σ (φ̄ v) φ̄ in this block
+    told: M::Vector,
     /// N, as a number to multiply with and as one to count to
     length: M::Real,
     in_block: u64,
@@ -110,6 +112,7 @@ impl<M: Memory> Monitor<M> {
             variance: zero,
             reference: zero,
             information: [zero; 2],
+            told: memory.vector(),
             length: zero,
             in_block: 0,
             samples: 0,
@@ -196,6 +199,7 @@ impl<M: Memory> Monitor<M> {
             let age = if rows == 0 { M::Real::ONE } else { M::Real::ZERO };
             let along = dot(row, direction);
             self.information[0] += along * along;
+            add_scaled(self.told.as_mut(), along, row);
             let parameters = self.silence.as_mut().iter_mut().zip(variances);
             for (&f, (silence, &variance)) in row.iter().zip(parameters) {
                 let excited = f * f * (variance * self.length) >= share;
@@ -232,23 +236,32 @@ impl<M: Memory> Monitor<M> {
     /// The end of a block.
     #[cold]
     fn turn(&mut self, factor: &Factor<M>) {
-        let before = self.variance;
-        let informed = self.information[0] * before >= self.needed();
-        self.look(factor);
+        let (before, needed) = (self.variance, self.needed());
+        let along = self.information[0];
+        let same = self.look(factor);
+        let (last, informed) = if same && along > M::Real::ZERO {
+            // Σ (φ̄ v)² of the new v is at least this (Cauchy and Schwarz): a trickle along the old
+            // one may be none along the new one, with its larger variance
+            let shared = dot(self.told.as_ref(), self.direction.as_ref());
+            let last = (shared * (shared / along)).min(M::Real::CEILING);
+            (last, last * self.variance >= self.needed())
+        } else {
+            let informed = along * before >= needed;
+            (if informed { along } else { M::Real::ZERO }, informed)
+        };
         if informed {
             self.informed = self.samples;
             // no direction had a larger variance before
             self.reference = before;
         }
         self.reference = self.reference.min(self.variance);
-        // a trickle along the old direction may be none along the new one, of a larger variance
-        let last = if informed { self.information[0] } else { M::Real::ZERO };
         self.information = [M::Real::ZERO, last];
+        self.told.as_mut().fill(M::Real::ZERO);
         self.in_block = 0;
     }
 
-    /// Looks for the weakest direction again. O(n²).
-    fn look(&mut self, factor: &Factor<M>) {
+    /// Looks for the weakest direction again; says whether it is still about the same. O(n²).
+    fn look(&mut self, factor: &Factor<M>) -> bool {
         let n = factor.parameters();
         let half = M::Real::from_f64(0.5);
         self.length = M::Real::from_f64((2 * n).max(10) as f64).max(half * self.weight);
@@ -266,6 +279,8 @@ impl<M: Memory> Monitor<M> {
             direction.copy_from_slice(before);
         }
         self.variance = factor.leverage(direction);
+        let overlap = dot(direction, before);
+        overlap * overlap > M::Real::from_f64(0.8)
     }
 
     /// What the watch has seen.
@@ -290,7 +305,8 @@ impl<M: Memory> Monitor<M> {
 
 impl<M: Memory> State<M::Real> for Monitor<M> {
     fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
-        for vector in [&mut self.direction, &mut self.variances, &mut self.silence] {
+        for vector in [&mut self.direction, &mut self.told, &mut self.variances, &mut self.silence]
+        {
             visitor.reals(vector.as_mut());
         }
         visitor.reals(&mut self.information);

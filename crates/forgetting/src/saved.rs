@@ -14,7 +14,7 @@
 //!
 //! All numbers are little-endian. Numbers of the state are kept bit for bit.
 //!
-//! Version 1 had no gate; it is read as open.
+//! Version 1 had no gate, which is read as open, and another watch, which starts anew.
 
 use crate::gates::{AnyGate, Gate, Open};
 use crate::parameter::{Value, Values};
@@ -63,9 +63,15 @@ impl<T: Real> AnyEstimator<T> {
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
         let body = checked(bytes)?;
         let mut reader = read::Reader::new(&body[MARK.len() + 1..]);
-        let mut estimator = read::header::<T>(&mut reader, body[MARK.len()])?;
+        let (mut estimator, old_watch) = read::header::<T>(&mut reader, body[MARK.len()])?;
         estimator.visit(&mut reader);
+        if old_watch {
+            reader.skip_old_watch::<T>(estimator.prior().memory().parameters())?;
+        }
         reader.finish()?;
+        if old_watch {
+            estimator.watch();
+        }
         if estimator.check_read() {
             Ok(estimator)
         } else {

@@ -5,10 +5,12 @@ Bruce and Bernstein (variable-direction forgetting, arXiv 2003.03523), with thei
 corrected, applied to a finished run:
 
     excitation           what the regressors excite, and since when not
+    excited              how many directions and which parameters, all along the record
     information_content  the information-rich subspace, sample by sample
     spectrum             the frequencies in the regressors
     conditions           A1-A8 with the constants found
     stability            which conclusions of Theorem 2 follow
+    guaranteed_bounds    bounds of P that a rule guarantees, by formula
     ultimate_bound       Theorem 3, corrected
     windup               where P grew without information
     confidence           standard errors, prediction intervals, coverage
@@ -23,6 +25,8 @@ from .confidence import Confidence, confidence
 from .content import Content, information_content
 from .direction import describe_direction
 from .excitation import Excitation, Persistency, excitation, persistency_window
+from .excited import Excited, excited
+from .guarantee import Guarantee, guaranteed_bounds
 from .information import filtered_regressors
 from .lyapunov import lyapunov, lyapunov_decrease, observed_decrease
 from .record import Record
@@ -41,6 +45,8 @@ __all__ = [
     "Confidence",
     "Content",
     "Excitation",
+    "Excited",
+    "Guarantee",
     "Persistency",
     "Record",
     "Spectrum",
@@ -54,7 +60,9 @@ __all__ = [
     "confidence",
     "describe_direction",
     "excitation",
+    "excited",
     "filtered_regressors",
+    "guaranteed_bounds",
     "information_content",
     "lyapunov",
     "lyapunov_decrease",

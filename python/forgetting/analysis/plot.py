@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from matplotlib.axes import Axes
 
@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from .confidence import Confidence
     from .content import Content
     from .excitation import Excitation
+    from .excited import Excited
+    from .guarantee import Guarantee
     from .spectrum import Spectrum
     from .stability import Stability
     from .ultimate_bound import UltimateBound
@@ -28,6 +30,8 @@ BLUE, VERMILLION, GREEN = "#0072b2", "#d55e00", "#009e73"
 ORANGE, PURPLE, SKY = "#e69f00", "#cc79a7", "#56b4e9"
 PALETTE = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY)
 FAINT = "#6b7280"
+#: A bound further beyond the range of the axes than this factor would flatten what they show.
+NEAR = 1e3
 
 
 def excitation(found: Excitation, ax: Axes | None = None) -> Axes:
@@ -146,6 +150,81 @@ def windup(found: Windup, ax: Axes | None = None) -> Axes:
     _shade(ax, found.samples, found.path > found.factor, "windup")
     ax.legend()
     return ax
+
+
+def rank(found: Excited, ax: Axes | None = None, x: Any = None) -> Axes:
+    """Draw how many directions the last samples excite; `x` has a value for each sample."""
+    ax = _axes(ax, "directions", "sample")
+    at = _at(found.samples, x)
+    ax.step(at, found.rank, where="mid", color=GREEN)
+    ax.fill_between(at, found.rank, step="mid", color=GREEN, alpha=0.15, lw=0)
+    ax.set_ylim(0, found.parameters * 1.08)
+    few = range(found.parameters + 1)
+    ax.set_yticks(few if found.parameters < 4 else [0, found.parameters])
+    ax.set_title(f"Directions of {found.parameters} that the last {found.window} samples excite")
+    return ax
+
+
+def excited(
+    found: Excited,
+    ax: Axes | None = None,
+    names: Sequence[str] | None = None,
+    x: Any = None,
+    most: int = 24,
+) -> Axes:
+    """Draw a bar for each parameter while the last samples tell of it; the first `most` of them."""
+    shown = min(found.parameters, most)
+    labels = [f"parameter {i}" for i in range(shown)] if names is None else list(names[:shown])
+    bars = dict(zip(labels, found.told.T[:shown], strict=True))
+    return strips(bars, ax, _at(found.samples, x), dict.fromkeys(labels, BLUE))
+
+
+def strips(
+    bars: Mapping[str, Any],
+    ax: Axes | None = None,
+    x: Any = None,
+    colours: Mapping[str, str] | None = None,
+) -> Axes:
+    """Draw bars above one another where something holds: its name, and a bool a sample.
+
+    Bins of a long record are filled when it holds anywhere in them.
+    """
+    ax = _axes(ax, "", "sample")
+    for place, (label, where) in enumerate(bars.items()):
+        where = np.asarray(where, dtype=bool)
+        at, held = _binned(np.arange(len(where)) if x is None else x, where)
+        colour = VERMILLION if colours is None else colours[label]
+        ax.fill_between(at, place - 0.32, place + 0.32, where=held, step="post", color=colour, lw=0)
+    ax.set_yticks(range(len(bars)), labels=list(bars))
+    ax.set_ylim(len(bars) - 0.45, -0.55)
+    ax.grid(visible=False, axis="y")
+    return ax
+
+
+def bounds(found: Guarantee, ax: Axes) -> Axes:
+    """Draw the bounds that the rule guarantees, where they are near what the axes show."""
+    low, high = ax.get_ylim()
+    for value, colour, label in (
+        (found.upper, VERMILLION, "guaranteed upper bound"),
+        (found.lower, BLUE, "guaranteed lower bound"),
+    ):
+        if value is not None and low / NEAR < value < high * NEAR:
+            ax.axhline(value, color=colour, ls="--", lw=1.0, label=label)
+    return ax
+
+
+def _at(samples: Any, x: Any) -> Any:
+    return samples if x is None else np.asarray(x)[samples]
+
+
+def _binned(x: Any, where: Any, most: int = 1200) -> tuple[Any, Any]:
+    """At most about `most` bins with their edges; True where it is anywhere in the bin."""
+    x = np.asarray(x)
+    step = max(1, -(-len(where) // most))
+    starts = np.arange(0, len(where), step)
+    held = np.logical_or.reduceat(where, starts) if len(where) else where
+    last = x[-1:] + (x[-1:] - x[-2:-1]) if len(x) > 1 else x[-1:]
+    return np.concatenate([x[starts], last]), np.append(held, held[-1:])
 
 
 def _axes(ax: Axes | None, ylabel: str, xlabel: str) -> Axes:

@@ -19,8 +19,9 @@ from forgetting.record.identification import Identification
 from forgetting.record.rounding import brief
 
 MEANING = (
-    "Each prediction is made before its sample is learned. Left out: samples that were missing or "
-    "in a dead zone. Largest eigenvalue and condition number of P are those at the end."
+    "Each prediction is made before its sample is learned. Left out: samples that were missing, "
+    "in a dead zone or within the bound on the noise. Largest eigenvalue and condition number of P "
+    "are those at the end."
 )
 HEADER = ("rule", "one-step RMSE", "left out", "max eig P", "cond P")
 
@@ -94,7 +95,7 @@ def error_of(found: Identification) -> float:
 def row(name: str, found: Identification) -> tuple[str, ...]:
     """One line of the table."""
     largest = float(found.trace.eigenvalues[-1][-1])
-    left_out = found.missing + found.dead_zone
+    left_out = len(found.samples.y) - found.used
     ratio = f"{found.covariance_ratio:.3g}"
     return (name, brief(error_of(found)), str(left_out), f"{largest:.3g}", ratio)
 

@@ -39,8 +39,7 @@ def print_identification(found: Identification) -> None:
     out.print(f"rule {escape(repr(found.rule))}\n")
     out.print(parameters(found))
     out.print(scores(found))
-    held = f"{found.missing} missing, {found.dead_zone} in the dead zone"
-    out.print(f"samples     {len(samples.y)}: {found.used} used, {held}")
+    out.print(f"samples     {len(samples.y)}: {found.used} used, {found.left_out()}")
     out.print(f"covariance  largest / smallest eigenvalue of P at the end: {spread(found)}")
     for verdict in found.verdicts:
         out.print(f"\n{escape(verdict)}", soft_wrap=False)

@@ -10,15 +10,19 @@ from forgetting.plot.overview import overview, save_overview
 from forgetting.plot.parameters import parameter
 from forgetting.plot.signals import error, prediction
 from forgetting.plot.style import PALETTE, styled
+from forgetting.plot.trust import alarms, excited, rank
 
 __all__ = [
     "PALETTE",
+    "alarms",
     "eigenvalues",
     "error",
+    "excited",
     "forgetting_factor",
     "overview",
     "parameter",
     "prediction",
+    "rank",
     "save_overview",
     "styled",
 ]

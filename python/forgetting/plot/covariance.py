@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.axes import Axes
 
+from forgetting.analysis.plot import bounds
 from forgetting.plot import thinning
 from forgetting.plot.style import BLUE, FAINT, GREEN, PURPLE, VERMILLION, axes_or_new, legend_above
 from forgetting.plot.timeline import label_time, timeline
@@ -13,7 +14,7 @@ from forgetting.record.trace import USED
 
 
 def eigenvalues(found: Identification, ax: Axes | None = None) -> Axes:
-    """Draw the eigenvalues of P over time on a logarithmic axis; shaded where P wound up."""
+    """Draw the eigenvalues of P over time on a logarithmic axis, with the rule's bounds if near."""
     ax = axes_or_new(ax)
     x, label = timeline(found)
     values, times = found.trace.eigenvalues, x[found.trace.rows]
@@ -24,13 +25,14 @@ def eigenvalues(found: Identification, ax: Axes | None = None) -> Axes:
         ax.plot(times, values[:, 0], color=BLUE, label="smallest")
     ax.set_yscale("log")
     ax.set_ylabel("eigenvalues of P")
+    bounds(found.guarantee, ax)
     label_time(ax, x, label)
-    legend_above(ax, 2)
+    legend_above(ax, len(ax.get_legend_handles_labels()[0]))
     return ax
 
 
 def forgetting_factor(found: Identification, ax: Axes | None = None) -> Axes:
-    """Draw the forgetting factor of each sample; held samples (dead zone, missing) are marked."""
+    """Draw the forgetting factor of each sample; samples that were left out are marked."""
     ax = axes_or_new(ax)
     x, label = timeline(found)
     used = np.where(found.trace.skipped == USED, found.trace.forgetting_factor, np.nan)
@@ -41,7 +43,7 @@ def forgetting_factor(found: Identification, ax: Axes | None = None) -> Axes:
             *thinning.line(x, held),
             color=PURPLE,
             lw=3,
-            label="held: nothing forgotten",
+            label="left out: nothing forgotten",
             solid_capstyle="butt",
         )
     low = float(np.nanmin(used)) if np.isfinite(used).any() else 1.0

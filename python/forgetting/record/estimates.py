@@ -80,6 +80,9 @@ def summary(found: Identification) -> dict[str, Any]:
             "used": found.used,
             "missing": found.missing,
             "dead_zone": found.dead_zone,
+            "within_bound": found.within_bound,
+            "held": found.held,
+            "frozen": found.frozen,
             "scored": scores.samples,
         },
         "covariance": {

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from forgetting.record.samples import Samples
-from forgetting.record.trace import DEAD_ZONE, Trace
+from forgetting.record.trace import DEAD_ZONE, HELD, Trace
 
 Array = NDArray[np.float64]
 
@@ -58,6 +58,11 @@ def verdicts(samples: Samples, trace: Trace, initial_variance: Array) -> list[st
         sentences.append(
             f"{idle} samples carried less information than the rule's threshold; they were neither "
             f"learned nor forgotten, and the estimates were held."
+        )
+    held = int((trace.skipped == HELD).sum())
+    if held:
+        sentences.append(
+            f"{held} samples were held by the gate: neither learned from nor forgotten for."
         )
     return sentences or ["All parameters were excited."]
 

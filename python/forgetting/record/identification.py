@@ -11,10 +11,19 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from forgetting.analysis import Excited, Guarantee, excited, guaranteed_bounds
 from forgetting.record import estimates
 from forgetting.record.samples import Samples
 from forgetting.record.scores import Scores
-from forgetting.record.trace import DEAD_ZONE, MISSING, USED, Trace
+from forgetting.record.trace import (
+    DEAD_ZONE,
+    FROZEN,
+    HELD,
+    MISSING,
+    USED,
+    WITHIN_BOUND,
+    Trace,
+)
 from forgetting.record.uncertainty import noise_variance, standard_errors
 
 Array = NDArray[np.float64]
@@ -36,6 +45,8 @@ class Identification:
         One-step errors of the model and of two baselines, on the same samples.
     verdicts : list of str
         Plain sentences on what the record excited.
+    initial_covariance : ndarray, shape (n, n)
+        P before the first sample.
     """
 
     samples: Samples
@@ -43,6 +54,7 @@ class Identification:
     rule: Any
     scores: Scores
     verdicts: list[str]
+    initial_covariance: Array
 
     @cached_property
     def noise_variance(self) -> Array:
@@ -93,6 +105,57 @@ class Identification:
     def dead_zone(self) -> int:
         """Samples skipped because they carried too little information."""
         return int((self.trace.skipped == DEAD_ZONE).sum())
+
+    @property
+    def within_bound(self) -> int:
+        """Samples skipped because their error was within the rule's bound on the noise."""
+        return int((self.trace.skipped == WITHIN_BOUND).sum())
+
+    @property
+    def held(self) -> int:
+        """Samples that the gate held: neither forgotten nor learned from."""
+        return int((self.trace.skipped == HELD).sum())
+
+    @property
+    def frozen(self) -> int:
+        """Samples that the gate froze: learned from, while nothing was forgotten."""
+        return int((self.trace.gate == FROZEN).sum())
+
+    def left_out(self) -> str:
+        """Samples that were not used, in words, and those that were frozen."""
+        counts = [
+            (self.missing, "missing"),
+            (self.dead_zone, "in the dead zone"),
+            (self.within_bound, "within the bound on the noise"),
+            (self.held, "held by the gate"),
+            (self.frozen, "frozen by the gate"),
+        ]
+        always = counts[:2]
+        return ", ".join(f"{n} {words}" for n, words in counts if n or (n, words) in always)
+
+    @cached_property
+    def guarantee(self) -> Guarantee:
+        """Bounds of P that the rule guarantees, for regressors and rates as in this record."""
+        used = self.trace.skipped == USED
+        factors = self.trace.forgetting_factor[used]
+        squares = np.square(self.samples.phi[used]).sum(axis=1)
+        return guaranteed_bounds(
+            self.rule,
+            self.initial_covariance,
+            parameters=self.samples.phi.shape[1],
+            forgetting_factors=(factors.min(initial=1.0), factors.max(initial=0.0) or 1.0),
+            regressor_bound=float(squares.max(initial=0.0)),
+        )
+
+    @cached_property
+    def excited(self) -> Excited:
+        """What the samples within the rule's memory tell, all along the record."""
+        used = self.trace.skipped == USED
+        forgotten = 1.0 - float(np.median(self.trace.forgetting_factor[used])) if used.any() else 0
+        total, n = self.samples.phi.shape
+        longest = max(1, min(total, max(2 * n, total // 4)))
+        window = int(np.clip(np.ceil(1 / max(forgotten, 1e-9)), min(2 * n, longest), longest))
+        return excited(self.samples.phi, window)
 
     @property
     def covariance_ratio(self) -> float:

@@ -96,8 +96,9 @@ def identify(
         targets=samples.y.shape[1],
         initial_covariance=initial_covariance,
         dtype=dtype,
+        monitor=True,
     )
-    initial_variance = np.diag(np.asarray(estimator.covariance, dtype=np.float64)).copy()
+    initial = np.asarray(estimator.covariance, dtype=np.float64)
     trace = run(estimator, samples, progress)
     baseline = errors_without_forgetting(samples, initial_covariance, dtype)
     return Identification(
@@ -105,7 +106,8 @@ def identify(
         trace=trace,
         rule=estimator.rule if isinstance(rule, str) else rule,
         scores=score(samples, trace.error, baseline),
-        verdicts=verdicts(samples, trace, initial_variance),
+        verdicts=verdicts(samples, trace, np.diag(initial)),
+        initial_covariance=initial,
     )
 
 

@@ -22,8 +22,18 @@ CHUNKS = 1000
 
 CODES = {reason: code for code, reason in fg.SKIPPED.items()}
 USED, DEAD_ZONE, MISSING = CODES[None], CODES["dead_zone"], CODES["missing"]
-WITHIN_BOUND, GATE = CODES["within_bound"], CODES["gate"]
-HISTORY = ("theta", "error", "forgetting_factor", "leverage", "skipped", "windup", "variance")
+WITHIN_BOUND, HELD = CODES["within_bound"], CODES["gate"]
+FROZEN = {word: code for code, word in fg.GATE.items()}["freeze"]
+HISTORY = (
+    "theta",
+    "error",
+    "forgetting_factor",
+    "leverage",
+    "skipped",
+    "gate",
+    "windup",
+    "variance",
+)
 
 
 @dataclass(frozen=True)
@@ -40,8 +50,10 @@ class Trace:
         Rate of each sample, and phi P phi' with P after forgetting and before measuring.
     skipped : ndarray of uint8, shape (T,)
         0 where the sample was used, else the code of the reason, see `forgetting.SKIPPED`.
+    gate : ndarray of uint8, shape (T,)
+        Code of what the gate said, see `forgetting.GATE`.
     windup : ndarray of bool, shape (T,)
-        Whether the estimator reported windup.
+        Whether the monitor reported windup.
     variance : ndarray, shape (T, n)
         Diagonal of P after each sample.
     rows : ndarray of int, shape (K,)
@@ -57,6 +69,7 @@ class Trace:
     forgetting_factor: Array
     leverage: Array
     skipped: NDArray[np.uint8]
+    gate: NDArray[np.uint8]
     windup: NDArray[np.bool_]
     variance: Array
     rows: NDArray[np.int64]
@@ -114,6 +127,7 @@ def joined(
         forgetting_factor=all_of("forgetting_factor").astype(np.float64),
         leverage=all_of("leverage").astype(np.float64),
         skipped=all_of("skipped").astype(np.uint8),
+        gate=all_of("gate").astype(np.uint8),
         windup=all_of("windup").astype(bool),
         variance=all_of("variance").astype(np.float64),
         rows=rows,

@@ -12,6 +12,7 @@ from forgetting.record.identification import Identification
 from forgetting.record.rounding import brief, with_error
 from forgetting.report.page import Block, Figure, Page, Table, write
 from forgetting.report.svg import inline
+from forgetting.report.trust import trust
 
 DRAWN = 24
 """Parameters drawn per output; the table and the estimates file have them all."""
@@ -30,7 +31,7 @@ def page(found: Identification) -> Page:
         blocks = [parameters(found), scores(found)]
         for output in range(len(found.samples.outputs)):
             blocks += [signals(found, output), histories(found, output)]
-        blocks += [memory(found), notes()]
+        blocks += [trust(found), memory(found), notes()]
     return Page(
         title=found.samples.source,
         subtitle=f"{found.samples.model} · {found.rule!r}",
@@ -52,7 +53,7 @@ def figures(found: Identification) -> list[Figure]:
         )
         for j, name in enumerate(found.samples.outputs[:3])
     ]
-    held = f"{found.missing} missing · {found.dead_zone} in the dead zone"
+    held = found.left_out().replace(", ", " · ")
     ends = found.trace.eigenvalues[-1]
     spread = f"eigenvalues {brief(ends[0], 3)} to {brief(ends[-1], 3)}"
     return [
@@ -133,19 +134,10 @@ def history(found: Identification, indices: list[int], output: int) -> Markup:
 
 
 def memory(found: Identification) -> Block:
-    """Forgetting factor and covariance."""
-    figure, axes = plt.subplots(
-        2, 1, figsize=(9.4, 4.2), sharex=True, height_ratios=(1, 1.6), layout="constrained"
-    )
-    plot.forgetting_factor(found, axes[0]).set_xlabel("")
-    plot.eigenvalues(found, axes[1])
-    figure.align_ylabels()
-    picture = inline(figure, "forgetting factor and eigenvalues of the covariance P over time")
-    text = (
-        "An eigenvalue of P that climbs without end is windup: the rule forgets in a direction in "
-        "which nothing new arrives."
-    )
-    return Block("Forgetting and covariance", text, pictures=[picture])
+    """Forgetting factor."""
+    figure, ax = plt.subplots(figsize=(9.4, 1.9), layout="constrained")
+    plot.forgetting_factor(found, ax)
+    return Block("Forgetting", pictures=[inline(figure, "forgetting factor over time")])
 
 
 def notes() -> Block:
@@ -157,6 +149,9 @@ def notes() -> Block:
         "out. It describes parameters that drift as the rule assumes, is an upper bound when they "
         "do not drift, and does not cover a wrong model or errors correlated in time. A sample "
         "with a missing value, or with a lag across a gap (a step in time above 1.5 median steps), "
-        "is skipped; a sample in the dead zone carries less information than the rule's threshold.",
+        "is skipped; a sample in the dead zone carries less information than the rule's threshold. "
+        "Excited: a direction of which the samples in the rule's memory tell at least 1 % as much "
+        "as the record does on the average. Windup: the variance of a direction grew to more than "
+        "ten times what it was when data last told of it, and none do now.",
         folded=True,
     )

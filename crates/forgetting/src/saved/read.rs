@@ -33,6 +33,11 @@ impl<'a> Reader<'a> {
         Ok(taken)
     }
 
+    /// Passes over the watch of version 1: three vectors of n numbers, nine numbers, three counts.
+    pub fn skip_old_watch<T: Real>(&mut self, n: usize) -> Result<(), Error> {
+        self.take((3 * n + 9) * T::BYTES + 3 * 8).map(|_| ())
+    }
+
     fn array<const N: usize>(&mut self) -> Result<[u8; N], Error> {
         let mut array = [0; N];
         array.copy_from_slice(self.take(N)?);
@@ -105,8 +110,12 @@ impl Values for Parameters {
     }
 }
 
-/// The estimator described before the numbers, with the prior's numbers but its first state.
-pub fn header<T: Real>(reader: &mut Reader<'_>, version: u8) -> Result<AnyEstimator<T>, Error> {
+/// The estimator described before the numbers, with the prior's numbers but its first state; and
+/// whether a watch of version 1 follows its numbers, which remembered less than those now.
+pub fn header<T: Real>(
+    reader: &mut Reader<'_>,
+    version: u8,
+) -> Result<(AnyEstimator<T>, bool), Error> {
     if usize::from(reader.byte()?) != T::BYTES {
         return Err(Error::State { reason: "it holds numbers of another type" });
     }
@@ -135,10 +144,11 @@ pub fn header<T: Real>(reader: &mut Reader<'_>, version: u8) -> Result<AnyEstima
         return Err(Error::State { reason: "its numbers are not those of a prior" });
     }
     let mut estimator = Estimator::new(rule, rate, weighting, prior).with_gate(gate);
-    if watched {
+    let old_watch = watched && version == 1;
+    if watched && !old_watch {
         estimator.watch();
     }
-    Ok(estimator)
+    Ok((estimator, old_watch))
 }
 
 impl<T: Real> Visitor<T> for Reader<'_> {

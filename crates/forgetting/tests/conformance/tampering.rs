@@ -105,20 +105,36 @@ fn tamper(sizes: Sizes) {
 }
 
 /// Version 1 had no gate: its bytes are those of version 2 without the gate's name and its count
-/// of parameters.
+/// of parameters. Its watch had one vector less.
 #[test]
-fn the_version_before_is_read_with_an_open_gate() {
-    let mut estimator = estimators((3, 1, 1)).remove(0).1;
-    for Datum { phi, y, .. } in &record::<f64>((3, 1, 1), 240)[..30] {
-        update(&mut estimator, phi, y, Noise::Unit).unwrap();
+fn the_version_before_is_read_with_an_open_gate_and_a_new_watch() {
+    for watched in [false, true] {
+        let mut estimator = estimators((3, 1, 1)).remove(0).1;
+        for Datum { phi, y, .. } in &record::<f64>((3, 1, 1), 240)[..30] {
+            update(&mut estimator, phi, y, Noise::Unit).unwrap();
+        }
+        let plain = estimator.to_bytes().unwrap();
+        if watched {
+            estimator.watch();
+        }
+        let bytes = estimator.to_bytes().unwrap();
+        let mut old = bytes[..bytes.len() - 4].to_vec();
+        let gate = [4, 0, b'o', b'p', b'e', b'n', 0];
+        let place = old.windows(gate.len()).position(|window| window == gate).unwrap();
+        old.drain(place..place + gate.len());
+        if watched {
+            old.truncate(old.len() - 3 * 8);
+        }
+        old[5] = 1;
+        let read = AnyEstimator::<f64>::from_bytes(&checked(old.clone())).unwrap();
+        assert_eq!(read.gate().about().name, "open");
+        assert_eq!(read.health().is_some(), watched);
+        let mut plainly = AnyEstimator::<f64>::from_bytes(&plain).unwrap();
+        if watched {
+            plainly.watch();
+        }
+        assert!(read.to_bytes().unwrap() == plainly.to_bytes().unwrap());
+        old.push(0);
+        assert!(AnyEstimator::<f64>::from_bytes(&checked(old)).is_err());
     }
-    let bytes = estimator.to_bytes().unwrap();
-    let mut old = bytes[..bytes.len() - 4].to_vec();
-    let gate = [4, 0, b'o', b'p', b'e', b'n', 0];
-    let place = old.windows(gate.len()).position(|window| window == gate).unwrap();
-    old.drain(place..place + gate.len());
-    old[5] = 1;
-    let read = AnyEstimator::<f64>::from_bytes(&checked(old)).unwrap();
-    assert_eq!(read.gate().about().name, "open");
-    assert!(read.to_bytes().unwrap() == bytes);
 }
