@@ -1,7 +1,9 @@
 # A few words that do whole things. The README, CI and people use the same ones.
 #   make demo    set up, identify two measured records, print where the reports are
 #   make test    set up, then format, lint, types, Rust tests, Python tests
-#   make bench   speed beside NumPy by hand and padasip; bench-full with more repetitions and rules
+#   make bench   speed beside Eigen, dlib, Numba, NumPy by hand, ... in a few minutes; bench-full: all peers
+#                and sizes. For the C++ peers: a C++ compiler, and Debian's libeigen3-dev, libdlib-dev,
+#                libopenblas0-pthread; without them the report says what is missing
 #   make docs    the documentation, warnings as errors
 #   make stubs   write again what is generated from the registries: stubs, README table, rule pages
 
@@ -51,14 +53,17 @@ docs: build
 	$(PIP) install sphinx myst-parser sphinx-gallery furo
 	$(BIN)/sphinx-build -W -b html docs docs/_build
 
+# what pip cannot install, the report names
+PEERS = sed -e 's/ *\#.*//' -e '/^$$/d' $(1) | while read peer; do \
+	$(PIP) install --no-warn-conflicts "$$peer" || echo "not installed: $$peer" >&2; done
+
 bench: build
-	$(PIP) install padasip
+	$(call PEERS,benchmarks/requirements.txt)
 	$(BIN)/python -m benchmarks --quick
 
 bench-full: build
-	$(PIP) install padasip
+	$(call PEERS,benchmarks/requirements.txt benchmarks/requirements-full.txt)
 	$(BIN)/python -m benchmarks
-	$(BIN)/python benchmarks/variable_direction.py
 
 clean:
 	cargo clean

@@ -1,33 +1,26 @@
-"""Times eigen-decomposition and oblique-projection forgetting against NumPy.
-
-    python benchmarks/variable_direction.py [--quick]
+"""Eigen-decomposition and oblique-projection forgetting beside the same step in NumPy.
 
 `variable_direction` in `RLS.run` against the same step with `numpy.linalg.eigh` of the propagated
 R, and `oblique_projection` against the formulas of Zhu, Yu & Wan (2022), (17)-(23), with
-`numpy.linalg.inv` and `pinv`. Both sides run on one thread, in turns; each time is the least of
-five turns, processor time a sample. Prints the times, their ratio and the largest difference of
-theta: with distinct prior variances, so that no eigenvectors are left to the solver, it is
-rounding.
+`numpy.linalg.inv` and `pinv`. With distinct prior variances, so that no eigenvectors are left to
+the solver, the largest difference of theta is rounding.
 """
 
 from __future__ import annotations
 
-import os
-
-for variable in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
-    os.environ.setdefault(variable, "1")
-
-import sys
-import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
 import forgetting as fg
 
+from .ledger import Ledger
+from .markdown import table
+from .plan import Plan
+from .timing import Side, race
+
 LAMBDA = 0.98
 THRESHOLD = 1e-6
-TURNS = 5
 
 Array = np.ndarray
 Run = Callable[[Array, Array], Array]
@@ -66,8 +59,11 @@ def oblique_step(phi_all: Array, y_all: Array) -> Array:
     return theta
 
 
-def ours(rule: fg.Rule, n: int, p: int) -> Run:
+def ours(rule: fg.Rule) -> Run:
+    """`RLS.run`."""
+
     def run(phi: Array, y: Array) -> Array:
+        _, p, n = phi.shape
         est = fg.RLS(n, rule=rule, rows=p, initial_covariance=prior(n))
         est.run(phi, y, outputs=())
         return np.asarray(est.theta)
@@ -75,37 +71,29 @@ def ours(rule: fg.Rule, n: int, p: int) -> Run:
     return run
 
 
-def compare(name: str, mine: Run, numpy_form: Run, n: int, p: int, samples: int) -> None:
+def row(rule: fg.Rule, numpy_form: Run, size: tuple[int, int], plan: Plan) -> list[str]:
+    """One rule at one size."""
+    n, p = size
+    samples = 300 if plan.quick else max(300, 20_000 // n)
     rng = np.random.default_rng(n * 10 + p)
     phi = rng.standard_normal((samples, p, n))
     y = phi @ rng.standard_normal(n) + 0.1 * rng.standard_normal((samples, p))
-    best = [np.inf, np.inf]
-    for _ in range(TURNS):
-        for i, run in enumerate((mine, numpy_form)):
-            start = time.thread_time()
-            run(phi, y)
-            best[i] = min(best[i], (time.thread_time() - start) / samples)
-    difference = np.abs(mine(phi, y) - numpy_form(phi, y)).max()
-    print(
-        f"{name:20} n={n:3} p={p}  {best[0] * 1e6:8.2f} us  NumPy {best[1] * 1e6:8.2f} us  "
-        f"{best[1] / best[0]:6.1f} times  difference {difference:.1e}",
-        flush=True,
-    )
+    mine = Side("ours", lambda: ours(rule)(phi, y), each=samples)
+    theirs = Side("NumPy", lambda: numpy_form(phi, y), each=samples)
+    race([mine, theirs], plan.seconds / 4)
+    apart = np.abs(ours(rule)(phi, y) - numpy_form(phi, y)).max()
+    times = [f"{side.nanoseconds / 1e3:.2f}" for side in (mine, theirs)]
+    return [str(n), str(p), *times, f"{theirs.least / mine.least:.1f}", f"{apart:.1e}"]
 
 
-def main() -> None:
-    quick = "--quick" in sys.argv
-    names = {entry["name"] for entry in fg.rules()}
-    for n in (6, 10, 32, 64):
-        for p in (1, 2):
-            samples = 300 if quick else 20_000 // n
-            rule = fg.rule("variable_direction", forgetting_factor=LAMBDA, threshold=THRESHOLD)
-            compare("variable_direction", ours(rule, n, p), eigh_step, n, p, samples)
-    if "oblique_projection" in names:
-        rule = fg.rule("oblique_projection", forgetting_factor=LAMBDA)
-        samples = 300 if quick else 1000
-        compare("oblique_projection", ours(rule, 64, 2), oblique_step, 64, 2, samples)
-
-
-if __name__ == "__main__":
-    main()
+def report(plan: Plan, ledger: Ledger) -> Iterator[str]:
+    """Markdown."""
+    variable = fg.rule("variable_direction", forgetting_factor=LAMBDA, threshold=THRESHOLD)
+    oblique = fg.rule("oblique_projection", forgetting_factor=LAMBDA)
+    rows = [
+        ["variable_direction", *row(variable, eigh_step, (n, p), plan)]
+        for n in (6, 10, 32, 64)
+        for p in (1, 2)
+    ]
+    rows.append(["oblique_projection", *row(oblique, oblique_step, (64, 2), plan)])
+    yield table(["rule", "n", "p", "µs", "NumPy, µs", "NumPy/ours", "difference of theta"], rows)

@@ -16,6 +16,8 @@ from ._core import (
     RLS,
     SKIPPED,
     Evidence,
+    Fleet,
+    FleetUpdate,
     InvalidInput,
     NumericalRange,
     Run,
@@ -27,6 +29,7 @@ from ._core import (
     weightings,
 )
 from .choices import Gate, Rate, Rule, Weighting, gate, rate, rule, weighting
+from .fleet import FleetHealth
 from .health import Health
 from .meter import ExcitationMeter
 from .models import ARX
@@ -39,6 +42,9 @@ __all__ = [
     "SKIPPED",
     "Evidence",
     "ExcitationMeter",
+    "Fleet",
+    "FleetHealth",
+    "FleetUpdate",
     "Gate",
     "Health",
     "InvalidInput",

@@ -15,7 +15,7 @@ from ._core import RLS
 Status = Literal["ok", "unexcited", "windup", "saturated"]
 
 #: Beyond these bounds on D the covariance is at the edge of its number type.
-_EDGE = {"float64": 2.0**490, "float32": 2.0**55}
+EDGE = {"float64": 2.0**490, "float32": 2.0**55}
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,7 +107,7 @@ class Health:
 def health_of(estimator: RLS, exact: bool = False) -> Health:
     """The health of `estimator`; see `RLS.health`."""
     largest, smallest = estimator._extremes()
-    edge = _EDGE[estimator.dtype]
+    edge = EDGE[estimator.dtype]
     saturated = largest > edge or smallest < 1 / edge
     if exact:
         unit, diagonal = (np.asarray(part, dtype=float) for part in estimator.factor())

@@ -1,5 +1,7 @@
 //! What the machine can do, found out once.
 
+#[cfg(target_arch = "x86_64")]
+use forgetting::factor::kernel::FEW;
 use forgetting::vector::Vector;
 use forgetting::{Kernel, Real};
 use std::sync::atomic::{AtomicU8, Ordering};
@@ -72,10 +74,6 @@ fn detected() -> Level {
     Level::Baseline
 }
 
-/// Kernels for fewer parameters than this gain nothing from vectors of 512 bits.
-#[cfg(target_arch = "x86_64")]
-const WIDE_FROM: usize = 9;
-
 /// The vectors of a number type for each level.
 #[cfg(target_arch = "x86_64")]
 pub trait Vectors: Real {
@@ -91,7 +89,7 @@ pub trait Vectors: Real {
 pub(crate) fn run<T: Vectors, K: Kernel<T>>(kernel: K) -> K::Output {
     match level() {
         // SAFETY: the level says that the machine has AVX-512 F, DQ and VL, AVX2 and FMA
-        Level::Wide if kernel.size() >= WIDE_FROM => unsafe { run_wide(kernel) },
+        Level::Wide if kernel.size() > FEW => unsafe { run_wide(kernel) },
         Level::Baseline => run_baseline(kernel),
         // SAFETY: the level says that the machine has AVX2 and FMA
         _ => unsafe { run_fused(kernel) },

@@ -1,5 +1,7 @@
 //! The kernels with fused multiply-add: right, and the same bits on every level.
 
+#[path = "../../forgetting/tests/advance_against_updates/mod.rs"]
+mod advance_against_updates;
 #[path = "../../forgetting/tests/kernels_against_dense/mod.rs"]
 mod kernels_against_dense;
 
@@ -7,9 +9,19 @@ use forgetting_cpu::{level, Fused, Level, VARIABLE};
 use kernels_against_dense::{check, sizes};
 use std::process::Command;
 
-/// A hash of all results (FNV-1a), after they were compared with dense ones.
+/// A hash of all results (FNV-1a), after they were compared with dense ones and with those of
+/// samples one by one.
 fn bits() -> u64 {
     let mut hash = 0xcbf2_9ce4_8422_2325u64;
+    for n in advance_against_updates::sizes() {
+        let states = [
+            advance_against_updates::check::<Fused<f64>>(n),
+            advance_against_updates::check::<Fused<f32>>(n),
+        ];
+        for x in states.concat() {
+            hash = (hash ^ x).wrapping_mul(0x0100_0000_01b3);
+        }
+    }
     for seed in 0..4 {
         for n in sizes() {
             for x in check::<Fused<f64>>(n, seed).into_iter().chain(check::<Fused<f32>>(n, seed)) {

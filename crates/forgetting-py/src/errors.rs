@@ -1,7 +1,7 @@
 //! Errors of the crate as Python exceptions.
 
 use forgetting::Error;
-use pyo3::exceptions::{PyArithmeticError, PyValueError};
+use pyo3::exceptions::{PyArithmeticError, PyMemoryError, PyValueError};
 use pyo3::{create_exception, PyErr};
 use std::cell::RefCell;
 
@@ -45,6 +45,7 @@ pub fn raise_at(error: Error, sample: Option<usize>) -> PyErr {
     match error {
         Error::Function { .. } => EXCEPTION.take().unwrap_or_else(|| InvalidInput::new_err(text)),
         Error::Range { .. } => NumericalRange::new_err(text),
+        Error::Memory => PyMemoryError::new_err(text),
         _ => InvalidInput::new_err(text),
     }
 }

@@ -6,6 +6,7 @@ mod callable;
 mod choice;
 mod configure;
 mod errors;
+mod fleet;
 mod function;
 mod outputs;
 mod record;
@@ -21,6 +22,8 @@ use pyo3::prelude::*;
 #[pymodule]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<rls::Rls>()?;
+    module.add_class::<fleet::Fleet>()?;
+    module.add_class::<fleet::FleetUpdate>()?;
     module.add_class::<update::Update>()?;
     module.add_class::<callable::Evidence>()?;
     module.add_class::<window::InformationWindow>()?;

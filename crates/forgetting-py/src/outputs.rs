@@ -2,6 +2,7 @@
 
 use crate::arrays::{shaped, Number, Stored};
 use crate::errors::invalid;
+use forgetting::factor::kernel::Told;
 use forgetting::gates::Answer;
 use forgetting::saved::AnyEstimator;
 use forgetting::{Dynamic, Factor, Memory, Skip, Update};
@@ -146,6 +147,25 @@ impl<T: Number> Outputs<T> {
             error.extend_from_slice(update.error);
         }
         push(&mut self.leverage, update.leverage);
+        self.note_rest(update);
+    }
+
+    /// What samples of one row and one target told.
+    pub fn note_all(&mut self, estimator: &AnyEstimator<T>, told: &[Told<T>]) {
+        if let Some(error) = &mut self.error {
+            error.extend(told.iter().map(|told| told.error));
+        }
+        if let Some(leverage) = &mut self.leverage {
+            leverage.extend(told.iter().map(|told| told.leverage));
+        }
+        for told in told {
+            self.note_rest(&estimator.update_of(told));
+        }
+    }
+
+    /// All but errors and leverages.
+    #[inline(always)]
+    fn note_rest(&mut self, update: &Update<'_, T>) {
         push(&mut self.forgetting_factor, update.forgetting_factor);
         push(&mut self.rank, update.rank as i64);
         push(&mut self.skipped, update.skipped.map_or(0, Skip::code));
@@ -172,6 +192,26 @@ impl<T: Number> Outputs<T> {
         push(&mut self.skipped, Skip::Missing.code());
         push(&mut self.gate, Answer::Update.code());
         push(&mut self.windup, false);
+    }
+
+    /// Whether an output is taken from the estimator after each sample, other than θ.
+    pub fn need_every_state(&self) -> bool {
+        [&self.variance, &self.covariance, &self.prior_covariance].into_iter().any(Option::is_some)
+    }
+
+    /// Lets `advance` write θ after each of at most `most` samples of n numbers, if θ is kept, and
+    /// keeps those of as many samples as it says it took.
+    pub fn with_thetas(
+        &mut self,
+        (most, n): (usize, usize),
+        advance: impl FnOnce(&mut [T]) -> usize,
+    ) -> usize {
+        let Some(theta) = &mut self.theta else { return advance(&mut []) };
+        let before = theta.len();
+        theta.resize(before + most * n, T::ZERO);
+        let taken = advance(&mut theta[before..]);
+        theta.truncate(before + taken * n);
+        taken
     }
 
     /// P̄ of a sample, which is P where it was `missing`.

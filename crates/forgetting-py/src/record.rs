@@ -4,6 +4,7 @@ use crate::arrays::{contiguous, Array, Number};
 use crate::callable::calls_python;
 use crate::errors::{invalid, raise_at};
 use crate::outputs::{Outputs, Run, Sizes};
+use forgetting::factor::kernel::Told;
 use forgetting::saved::AnyEstimator;
 use forgetting::{Error, Memory, Noise};
 use numpy::PyArrayMethods;
@@ -137,7 +138,14 @@ fn samples<T: Number>(
     let memory = estimator.prior().memory();
     let (n, p, m) = (memory.parameters(), memory.rows(), memory.targets());
     let missing = |values: &[T]| values.iter().any(|x| x.to_f64().is_nan());
-    for (k, (phi, y)) in phi.chunks_exact(p * n).zip(y.chunks_exact(p * m)).enumerate() {
+    let (count, mut k) = (y.len() / (p * m), 0);
+    while k < count {
+        let taken = several(estimator, &phi[k * p * n..], &y[k * p * m..], noise, outputs);
+        if taken > 0 {
+            k += taken;
+            continue;
+        }
+        let (phi, y) = (&phi[k * p * n..(k + 1) * p * n], &y[k * p * m..(k + 1) * p * m]);
         if skip_missing && (missing(phi) || missing(y)) {
             outputs.note_missing(p * m);
             outputs.note_prior(estimator, true);
@@ -148,6 +156,27 @@ fn samples<T: Number>(
             outputs.note_prior(estimator, false);
         }
         outputs.note_state(estimator);
+        k += 1;
     }
     Ok(())
+}
+
+/// As many samples as the estimator takes in one go, none where an output needs more of each.
+fn several<T: Number>(
+    estimator: &mut AnyEstimator<T>,
+    phi: &[T],
+    y: &[T],
+    noise: &RecordNoise<'_, T>,
+    outputs: &mut Outputs<T>,
+) -> usize {
+    const MOST: usize = 64;
+    if !matches!(noise, RecordNoise::Unit) || outputs.need_every_state() {
+        return 0;
+    }
+    let mut told = [Told::default(); MOST];
+    let (most, n) = (MOST.min(y.len()), estimator.theta().len());
+    let taken = outputs
+        .with_thetas((most, n), |thetas| estimator.advance(phi, y, &mut told[..most], thetas));
+    outputs.note_all(estimator, &told[..taken]);
+    taken
 }

@@ -1,6 +1,7 @@
 //! The registries as Python dictionaries.
 
 use crate::choice::write_value;
+use forgetting::fleet::REFUSED;
 use forgetting::gates::{Answer, GATES};
 use forgetting::parameter::{Kind, Parameter};
 use forgetting::rates::RATES;
@@ -105,12 +106,13 @@ pub fn gate_codes(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     Ok(codes)
 }
 
-/// The codes of a record's `skipped`: 0 is None.
+/// The codes of `skipped` in the results of a record or a fleet: 0 is None.
 pub fn skip_codes(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     let codes = PyDict::new(py);
     codes.set_item(0, py.None())?;
     for reason in Skip::ALL {
         codes.set_item(reason.code(), reason.word())?;
     }
+    codes.set_item(REFUSED, "refused")?;
     Ok(codes)
 }

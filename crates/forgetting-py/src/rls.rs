@@ -12,8 +12,9 @@ use forgetting_cpu::{level, Fused, Level};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyType};
 
+/// An estimator in one of the number types.
 #[derive(Clone)]
-enum Inner {
+pub enum Inner {
     Double(Box<AnyEstimator<f64>>),
     Single(Box<AnyEstimator<f32>>),
     // on a machine with fused multiply-add
@@ -45,6 +46,8 @@ macro_rules! either {
         }
     };
 }
+
+pub(crate) use {either, new};
 
 /// Recursive least squares with generalized forgetting.
 ///
@@ -90,7 +93,7 @@ macro_rules! either {
 /// array([3. , 0.5])
 #[pyclass(name = "RLS", module = "forgetting")]
 pub struct Rls {
-    inner: Inner,
+    pub(crate) inner: Inner,
 }
 
 #[pymethods]

@@ -63,6 +63,8 @@ pub enum Error {
         /// what does not go together, and what does
         reason: &'static str,
     },
+    /// More memory than there is.
+    Memory,
     /// A saved state that cannot be read.
     State {
         /// what is wrong with it
@@ -124,6 +126,7 @@ impl fmt::Display for Error {
             }
             Self::Function { parameter } => write!(f, "the function given for {parameter} failed"),
             Self::Unsupported { reason } => f.write_str(reason),
+            Self::Memory => f.write_str("there is not enough memory"),
             Self::State { reason } => write!(f, "state: {reason}"),
         }
     }

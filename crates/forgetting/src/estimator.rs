@@ -103,6 +103,7 @@ where
         let steady = rate
             .constant()
             .filter(|_| single)
+            .map(|lambda| lambda.max(M::Real::EPSILON))
             .and_then(|lambda| rule.form(lambda).map(|form| Steady { lambda, form }));
         Self {
             steady,

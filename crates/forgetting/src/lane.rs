@@ -37,6 +37,8 @@ pub trait Lane<T>:
     fn less_than(self, limit: Self) -> Self::Mask;
     /// Where both are so.
     fn both(a: Self::Mask, b: Self::Mask) -> Self::Mask;
+    /// Whether it is so in every lane.
+    fn all(mask: Self::Mask) -> bool;
     /// `yes` where `mask` says so, `no` elsewhere.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 }
@@ -88,6 +90,10 @@ impl<T: Real> Lane<T> for T {
     #[inline(always)]
     fn both(a: bool, b: bool) -> bool {
         a & b
+    }
+    #[inline(always)]
+    fn all(mask: bool) -> bool {
+        mask
     }
     #[inline(always)]
     fn select(mask: bool, yes: T, no: T) -> T {

@@ -30,6 +30,8 @@ mod evidence;
 mod excitation;
 pub mod factor;
 #[cfg(feature = "alloc")]
+pub mod fleet;
+#[cfg(feature = "alloc")]
 pub mod function;
 pub mod gates;
 mod innovation;

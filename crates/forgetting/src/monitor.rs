@@ -146,10 +146,12 @@ impl<M: Memory> Monitor<M> {
     #[inline]
     pub fn watch(&mut self, factor: &Factor<M>, seen: Option<Seen<'_, M::Real>>) {
         self.samples += 1;
-        self.silence.as_mut().iter_mut().for_each(|silence| *silence += M::Real::ONE);
-        if let Some(seen) = seen {
-            let rows = self.note_excitation(seen.regressors);
-            self.residual.note(&seen, rows);
+        match seen {
+            Some(seen) => {
+                let rows = self.note_excitation(seen.regressors);
+                self.residual.note(&seen, rows);
+            }
+            None => self.silence.as_mut().iter_mut().for_each(|silence| *silence += M::Real::ONE),
         }
         self.in_block += 1;
         if M::Real::from_f64(self.in_block as f64) >= self.length {
@@ -163,11 +165,13 @@ impl<M: Memory> Monitor<M> {
         let variances = self.variances.as_ref();
         let (share, mut rows) = (M::Real::from_f64(SHARE), 0);
         for row in regressors.chunks_exact(variances.len()) {
+            // a sample ages once, whatever its rows
+            let age = if rows == 0 { M::Real::ONE } else { M::Real::ZERO };
             self.weakest.note(row);
             let parameters = self.silence.as_mut().iter_mut().zip(variances);
             for (&f, (silence, &variance)) in row.iter().zip(parameters) {
                 let excited = f * f * (variance * self.length) >= share;
-                *silence = if excited { M::Real::ZERO } else { *silence };
+                *silence = if excited { M::Real::ZERO } else { *silence + age };
             }
             rows += 1;
         }

@@ -11,7 +11,8 @@ pub trait Kernel<T: Real> {
     /// How many parameters it is for.
     fn size(&self) -> usize;
     /// The loop, with vectors `V`, over at most `GROUP` columns of U at a time: as many as the
-    /// registers hold. The result depends on neither.
+    /// registers hold. The result depends on neither. 8 columns and more are only for kernels of
+    /// more than [`FEW`](crate::factor::kernel::FEW) parameters.
     fn run<V: Vector<T>, const GROUP: usize>(self) -> Self::Output;
 }
 
@@ -38,7 +39,7 @@ pub trait Real:
     + DivAssign
 {
     /// The numbers of one vector: 8 of eight bytes or 16 of four.
-    type Chunk: Copy + AsRef<[Self]> + AsMut<[Self]>;
+    type Chunk: Copy + Debug + Send + Sync + AsRef<[Self]> + AsMut<[Self]>;
     /// A vector that needs no particular instructions.
     type Lanes: Vector<Self>;
 

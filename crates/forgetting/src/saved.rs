@@ -28,6 +28,8 @@ use alloc::{boxed::Box, string::String, vec::Vec};
 mod read;
 mod write;
 
+pub(crate) use write::choice as write_choice;
+
 /// The version of the format that is written, and the latest that is read.
 pub const VERSION: u8 = 2;
 const MARK: &[u8; 5] = b"FGRLS";

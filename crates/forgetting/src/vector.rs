@@ -11,6 +11,9 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 pub trait Vector<T: Real>: Lane<T> {
     /// A single number, as this set of instructions works fastest with one.
     type One: One<T>;
+    /// What the streams of a fleet run in.
+    type Abreast: Abreast<T>;
+
     /// The numbers of `chunk`.
     fn load(chunk: &T::Chunk) -> Self;
     /// The numbers of `first`, at most [`HALF`]; 0 in the other lanes.
@@ -33,6 +36,36 @@ pub trait Vector<T: Real>: Lane<T> {
             sums[c] = vectors[c].sum();
         }
         sums
+    }
+}
+
+/// A number of each of a few streams, in as few registers as there are: long recursions need the
+/// others for their own numbers.
+pub trait Abreast<T: Real>: Lane<T> {
+    /// How many streams, at most those of a chunk.
+    const COUNT: usize;
+    /// The first [`Abreast::COUNT`] of `numbers`, of which there are as many at least.
+    fn read(numbers: &[T]) -> Self;
+    /// Writes them to the first [`Abreast::COUNT`] of `numbers`, of which there are as many.
+    fn write(self, numbers: &mut [T]);
+    /// The number at each position.
+    fn at(number: impl Fn(usize) -> T) -> Self;
+}
+
+impl<T: Real> Abreast<T> for T {
+    const COUNT: usize = 1;
+
+    #[inline(always)]
+    fn read(numbers: &[T]) -> T {
+        numbers[0]
+    }
+    #[inline(always)]
+    fn write(self, numbers: &mut [T]) {
+        numbers[0] = self;
+    }
+    #[inline(always)]
+    fn at(number: impl Fn(usize) -> T) -> T {
+        number(0)
     }
 }
 
@@ -106,12 +139,17 @@ impl<T: Real, const L: usize> Lane<T> for Lanes<T, L> {
         array::from_fn(|lane| a[lane] & b[lane])
     }
     #[inline(always)]
+    fn all(mask: [bool; L]) -> bool {
+        mask.iter().fold(true, |all, &lane| all & lane)
+    }
+    #[inline(always)]
     fn select(mask: [bool; L], yes: Self, no: Self) -> Self {
         Self(array::from_fn(|lane| T::select(mask[lane], yes.0[lane], no.0[lane])))
     }
 }
 
 impl<T: Real<Chunk = [T; L]>, const L: usize> Vector<T> for Lanes<T, L> {
+    type Abreast = T;
     type One = T;
 
     #[inline(always)]

@@ -48,7 +48,7 @@ __m512d => _mm512_div_pd, __m512 => _mm512_div_ps; __m128d => _mm_div_pd, __m128
 /// The rest of the arithmetic of a pair of registers.
 macro_rules! pair {
     ($float:ident, $register:ty: $set1:ident $fmadd:ident $max:ident $sqrt:ident $cmp:ident
-     $and:ident $andnot:ident $xor:ident $blendv:ident) => {
+     $and:ident $andnot:ident $xor:ident $blendv:ident $movemask:ident $full:literal) => {
         impl Neg for Pair<$register> {
             type Output = Self;
             #[inline(always)]
@@ -102,6 +102,10 @@ macro_rules! pair {
                 Self(unsafe { $and(a.0, b.0) }, unsafe { $and(a.1, b.1) })
             }
             #[inline(always)]
+            fn all(mask: Self) -> bool {
+                unsafe { $movemask($and(mask.0, mask.1)) == $full }
+            }
+            #[inline(always)]
             fn select(mask: Self, yes: Self, no: Self) -> Self {
                 Self(unsafe { $blendv(no.0, yes.0, mask.0) }, unsafe {
                     $blendv(no.1, yes.1, mask.1)
@@ -112,9 +116,11 @@ macro_rules! pair {
 }
 
 pair!(f64, __m256d: _mm256_set1_pd _mm256_fmadd_pd _mm256_max_pd _mm256_sqrt_pd _mm256_cmp_pd
-    _mm256_and_pd _mm256_andnot_pd _mm256_xor_pd _mm256_blendv_pd);
+    _mm256_and_pd _mm256_andnot_pd _mm256_xor_pd _mm256_blendv_pd
+    _mm256_movemask_pd 0xF);
 pair!(f32, __m256: _mm256_set1_ps _mm256_fmadd_ps _mm256_max_ps _mm256_sqrt_ps _mm256_cmp_ps
-    _mm256_and_ps _mm256_andnot_ps _mm256_xor_ps _mm256_blendv_ps);
+    _mm256_and_ps _mm256_andnot_ps _mm256_xor_ps _mm256_blendv_ps
+    _mm256_movemask_ps 0xFF);
 
 /// The rest of the arithmetic of a wide register.
 macro_rules! wide {
@@ -164,6 +170,10 @@ macro_rules! wide {
                 a & b
             }
             #[inline(always)]
+            fn all(mask: $mask) -> bool {
+                mask == <$mask>::MAX
+            }
+            #[inline(always)]
             fn select(mask: $mask, yes: Self, no: Self) -> Self {
                 Self(unsafe { $blend(mask, no.0, yes.0) })
             }
@@ -179,7 +189,7 @@ wide!(f32, __m512, __mmask16: _mm512_set1_ps _mm512_fmadd_ps _mm512_max_ps _mm51
 /// The rest of the arithmetic of a single number.
 macro_rules! same {
     ($float:ident, $register:ty: $get:ident $set1:ident $fmadd:ident $max:ident $sqrt:ident $cmple:ident
-     $cmplt:ident $and:ident $andnot:ident $xor:ident $blendv:ident) => {
+     $cmplt:ident $and:ident $andnot:ident $xor:ident $blendv:ident $movemask:ident) => {
         impl Neg for Same<$register> {
             type Output = Self;
             #[inline(always)]
@@ -231,6 +241,11 @@ macro_rules! same {
                 Self(unsafe { $and(a.0, b.0) })
             }
             #[inline(always)]
+            fn all(mask: Self) -> bool {
+                // every lane has the same number
+                unsafe { $movemask(mask.0) & 1 == 1 }
+            }
+            #[inline(always)]
             fn select(mask: Self, yes: Self, no: Self) -> Self {
                 Self(unsafe { $blendv(no.0, yes.0, mask.0) })
             }
@@ -239,6 +254,6 @@ macro_rules! same {
 }
 
 same!(f64, __m128d: _mm_cvtsd_f64 _mm_set1_pd _mm_fmadd_pd _mm_max_pd _mm_sqrt_pd _mm_cmple_pd _mm_cmplt_pd
-    _mm_and_pd _mm_andnot_pd _mm_xor_pd _mm_blendv_pd);
+    _mm_and_pd _mm_andnot_pd _mm_xor_pd _mm_blendv_pd _mm_movemask_pd);
 same!(f32, __m128: _mm_cvtss_f32 _mm_set1_ps _mm_fmadd_ps _mm_max_ps _mm_sqrt_ps _mm_cmple_ps _mm_cmplt_ps
-    _mm_and_ps _mm_andnot_ps _mm_xor_ps _mm_blendv_ps);
+    _mm_and_ps _mm_andnot_ps _mm_xor_ps _mm_blendv_ps _mm_movemask_ps);

@@ -9,6 +9,9 @@ use core::arch::x86_64::*;
 use forgetting::vector::{Vector, HALF};
 
 mod lanes;
+mod single;
+
+use single::Single;
 
 /// Two registers of 256 bits.
 #[derive(Clone, Copy, Debug)]
@@ -44,6 +47,7 @@ macro_rules! at_mut {
         $array.as_mut_ptr().cast::<$float>().add($offset)
     };
 }
+use {at, at_mut};
 
 /// The first `count` of eight lanes.
 #[inline(always)]
@@ -87,6 +91,7 @@ unsafe fn masks32(count: usize) -> __m256i {
 // loads and stores need no alignment.
 
 impl Vector<Fused<f64>> for Wide<__m512d> {
+    type Abreast = Self;
     type One = Same<__m128d>;
 
     #[inline(always)]
@@ -141,6 +146,7 @@ unsafe fn sums_of_four(vectors: &[Pair<__m256d>; 4]) -> [Fused<f64>; 4] {
 }
 
 impl Vector<Fused<f64>> for Pair<__m256d> {
+    type Abreast = Single<__m256d>;
     type One = Same<__m128d>;
 
     #[inline(always)]
@@ -206,6 +212,7 @@ impl Vector<Fused<f64>> for Pair<__m256d> {
 }
 
 impl Vector<Fused<f32>> for Wide<__m512> {
+    type Abreast = Self;
     type One = Same<__m128>;
 
     #[inline(always)]
@@ -243,6 +250,7 @@ impl Vector<Fused<f32>> for Wide<__m512> {
 }
 
 impl Vector<Fused<f32>> for Pair<__m256> {
+    type Abreast = Single<__m256>;
     type One = Same<__m128>;
 
     #[inline(always)]

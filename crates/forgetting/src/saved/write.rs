@@ -33,7 +33,7 @@ pub fn header<T: Real>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
 }
 
 /// A name, then its parameters: their number, and each one's name and value.
-fn choice(
+pub fn choice(
     bytes: &mut Vec<u8>,
     name: &str,
     each: impl FnOnce(&mut dyn FnMut(&str, Value<'_>)),

@@ -145,7 +145,7 @@ mod tests {
             assert!(parts <= capacity::<T>(a + b + c), "{a} {b} {c}");
         }
         for n in 9..600 {
-            assert!(length::<T>(n) <= n * (n + 1) / 2 + 3 * T::ROWS / 2 * n);
+            assert!(length::<T>(n) <= n * (n + 1) / 2 + (3 * n / 2 + 8) * T::ROWS);
             assert!(capacity::<T>(n) <= most(n));
         }
     }

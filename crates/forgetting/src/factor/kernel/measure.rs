@@ -43,7 +43,8 @@ impl<T: Real> Kernel<T> for Measure<'_, T> {
     fn run<V: Vector<T>, const GROUP: usize>(mut self) -> Option<Measured<T>> {
         let n = self.f.len();
         let Self { ref mut place, form, f, squares, .. } = self;
-        let measured = if n <= FEW {
+        // wide vectors are for many: without this they would be compiled for few, too
+        let measured = if GROUP < 8 && n <= FEW {
             with_few!(n, few::<T, T>(place, form, f, squares))?
         } else {
             many::<T, V, GROUP>(place, form, f, squares)?

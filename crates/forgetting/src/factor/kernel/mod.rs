@@ -37,6 +37,8 @@ mod agee_turner;
 mod along;
 mod batch;
 mod bierman;
+#[cfg(feature = "alloc")]
+pub(crate) mod fleet;
 mod layout;
 mod long;
 mod measure;
@@ -46,8 +48,10 @@ mod tile;
 mod told;
 mod triangular;
 
+#[cfg(feature = "alloc")]
+pub(crate) use layout::BLOCK;
 pub use layout::{
-    capacity, column, get_column, length, most, place, put_column, set_identity, visit,
+    capacity, column, get_column, length, most, place, put_column, set_identity, visit, FEW,
 };
 pub(crate) use measure::{Measure, Place};
 pub(crate) use steps::Steps;

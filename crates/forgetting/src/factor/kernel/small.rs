@@ -17,9 +17,32 @@ use crate::{Lane, One, Real};
 
 /// U above its diagonal, by columns, and D.
 #[derive(Clone, Copy)]
-pub struct Small<A, const N: usize> {
-    pub u: [[A; N]; N],
+pub struct Small<A, const N: usize, U = [[A; N]; N]> {
+    pub u: U,
     pub d: [A; N],
+}
+
+/// Where the numbers of U are while a sample is taken.
+pub trait Unit<A, const N: usize> {
+    /// Row i < c of column c.
+    fn get(&self, c: usize, i: usize) -> A;
+    fn set(&mut self, c: usize, i: usize, u: A);
+    /// D is final, and U is read for the last time.
+    fn last_pass(&mut self, d: &[A; N]);
+}
+
+/// In registers, as many as there are.
+impl<A: Copy, const N: usize> Unit<A, N> for [[A; N]; N] {
+    #[inline(always)]
+    fn get(&self, c: usize, i: usize) -> A {
+        self[c][i]
+    }
+    #[inline(always)]
+    fn set(&mut self, c: usize, i: usize, u: A) {
+        self[c][i] = u;
+    }
+    #[inline(always)]
+    fn last_pass(&mut self, _: &[A; N]) {}
 }
 
 /// What measuring f brought.
@@ -58,7 +81,7 @@ struct Chain<A, const N: usize> {
     largest: A,
 }
 
-impl<A: Copy, const N: usize> Small<A, N> {
+impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
     /// P ← `growth`·P, then P⁻¹ ← P⁻¹ + fᵀf.
     #[inline(always)]
     pub fn scale_and_measure<T: Real>(&mut self, growth: A, f: &[A; N]) -> Gain<A, N>
@@ -70,13 +93,14 @@ impl<A: Copy, const N: usize> Small<A, N> {
         }
         let w = transposed(&self.u, f);
         let chain = self.chain(&w);
+        self.u.last_pass(&self.d);
         let mut k = [A::splat(T::ZERO); N];
         for c in 0..N {
             let less_w = -w[c];
             for i in 0..c {
-                let before = self.u[c][i];
+                let before = self.u.get(c, i);
                 // the reciprocal comes last
-                self.u[c][i] = (less_w * k[i]).mul_add(chain.inverse[c], before);
+                self.u.set(c, i, (less_w * k[i]).mul_add(chain.inverse[c], before));
                 k[i] = chain.v[c].mul_add(before, k[i]);
             }
             k[c] = chain.v[c];
@@ -91,7 +115,11 @@ impl<A: Copy, const N: usize> Small<A, N> {
         A: Lane<T>,
     {
         let w = transposed(&self.u, f);
-        (0..N).fold(A::splat(T::ZERO), |sum, c| (self.d[c] * w[c]).mul_add(w[c], sum))
+        let mut sum = A::splat(T::ZERO);
+        for c in 0..N {
+            sum = (self.d[c] * w[c]).mul_add(w[c], sum);
+        }
+        sum
     }
 
     /// What P⁻¹ holds along f.
@@ -104,7 +132,7 @@ impl<A: Copy, const N: usize> Small<A, N> {
         for c in (0..N).rev() {
             let less_z = -z[c];
             for i in 0..c {
-                z[i] = less_z.mul_add(self.u[c][i], z[i]);
+                z[i] = less_z.mul_add(self.u.get(c, i), z[i]);
             }
             q[c] = z[c] / self.d[c];
         }
@@ -140,14 +168,15 @@ impl<A: Copy, const N: usize> Small<A, N> {
             p = z[c].mul_add(before, p);
         }
         let chain = self.chain(&w);
+        self.u.last_pass(&self.d);
         let (mut k, mut x) = ([zero; N], [zero; N]);
         for c in 0..N {
             let less_w = -w[c];
             for i in 0..c {
-                let before = self.u[c][i];
+                let before = self.u.get(c, i);
                 let widened = slope[c].mul_add(x[i], before);
                 x[i] = z[c].mul_add(before, x[i]);
-                self.u[c][i] = (less_w * k[i]).mul_add(chain.inverse[c], widened);
+                self.u.set(c, i, (less_w * k[i]).mul_add(chain.inverse[c], widened));
                 k[i] = chain.v[c].mul_add(widened, k[i]);
             }
             (x[c], k[c]) = (z[c], chain.v[c]);
@@ -222,15 +251,20 @@ impl<A: Copy, const N: usize> Small<A, N> {
 
 /// Uᵀf, in two sums of which neither waits for the other.
 #[inline(always)]
-fn transposed<T: Real, A: Lane<T>, const N: usize>(u: &[[A; N]; N], f: &[A; N]) -> [A; N] {
+fn transposed<T, A, U, const N: usize>(u: &U, f: &[A; N]) -> [A; N]
+where
+    T: Real,
+    A: Lane<T>,
+    U: Unit<A, N>,
+{
     let mut w = *f;
     for c in 0..N {
         let mut odd = A::splat(T::ZERO);
         for i in 0..c {
             if i % 2 == 0 {
-                w[c] = u[c][i].mul_add(f[i], w[c]);
+                w[c] = u.get(c, i).mul_add(f[i], w[c]);
             } else {
-                odd = u[c][i].mul_add(f[i], odd);
+                odd = u.get(c, i).mul_add(f[i], odd);
             }
         }
         if c > 1 {

@@ -39,7 +39,8 @@ impl<T: Real> Kernel<T> for Steps<'_, T> {
     #[inline(always)]
     fn run<V: Vector<T>, const GROUP: usize>(mut self) -> usize {
         let n = self.theta.len();
-        if n <= FEW {
+        // wide vectors are for many: without this they would be compiled for few, too
+        if GROUP < 8 && n <= FEW {
             match n {
                 // less arithmetic than waiting for it
                 1 => few::<T, V::One, 1>(&mut self),

@@ -1,0 +1,86 @@
+//! Streams that are an estimator each: any rule, rate and weighting.
+
+use super::streams::Spread;
+use crate::arrays::Number;
+use forgetting::fleet::{Samples, Told, REFUSED};
+use forgetting::saved::AnyEstimator;
+use forgetting::{Error, Skip};
+
+/// How much more a number of the state costs here than in a block of lanes.
+pub const EFFORT: usize = 8;
+
+/// Takes a sample for each stream; returns how many used it. See
+/// [`Part::update`](forgetting::fleet::Part::update).
+pub fn update<T: Number>(
+    streams: &mut [AnyEstimator<T>],
+    samples: Samples<'_, T>,
+    told: &mut Told<'_, T>,
+) -> usize {
+    let n = samples.phi.len() / streams.len().max(1);
+    let mut used = 0;
+    for (i, estimator) in streams.iter_mut().enumerate() {
+        let (phi, y) = (&samples.phi[i * n..(i + 1) * n], &samples.y[i..=i]);
+        let (error, leverage, code) = match samples.mask.is_none_or(|mask| mask[i]) {
+            true => take(estimator, phi, y),
+            false => nothing(Skip::Missing.code()),
+        };
+        used += usize::from(code == 0);
+        put(&mut told.error, i, error);
+        put(&mut told.leverage, i, leverage);
+        put(&mut told.skipped, i, code);
+    }
+    used
+}
+
+/// One stream's sample.
+fn take<T: Number>(estimator: &mut AnyEstimator<T>, phi: &[T], y: &[T]) -> (T, T, u8) {
+    if phi.iter().chain(y).any(|x| x.to_f64().is_nan()) {
+        return nothing(Skip::Missing.code());
+    }
+    match estimator.update(phi, y) {
+        Ok(update) => (update.error[0], update.leverage, update.skipped.map_or(0, Skip::code)),
+        Err(_) => nothing(REFUSED),
+    }
+}
+
+fn nothing<T: Number>(code: u8) -> (T, T, u8) {
+    let nan = T::from_f64(f64::NAN);
+    (nan, nan, code)
+}
+
+fn put<T>(numbers: &mut Option<&mut [T]>, index: usize, number: T) {
+    if let Some(numbers) = numbers {
+        numbers[index] = number;
+    }
+}
+
+/// φθ of each stream.
+///
+/// # Errors
+/// Those of [`Estimator::predict`](forgetting::Estimator::predict).
+pub fn predict<T: Number>(
+    streams: &[AnyEstimator<T>],
+    phi: &[T],
+    prediction: &mut [T],
+) -> Result<(), Error> {
+    let n = phi.len() / streams.len().max(1);
+    let each = phi.chunks_exact(n).zip(prediction.chunks_exact_mut(1));
+    streams.iter().zip(each).try_for_each(|(stream, (phi, y))| stream.predict(phi, y))
+}
+
+/// What the health of each stream is made of.
+pub fn spread<T: Number>(streams: &[AnyEstimator<T>]) -> Spread<T> {
+    let factors = || streams.iter().map(AnyEstimator::factor);
+    Spread {
+        largest: factors().map(|factor| factor.largest()).collect(),
+        smallest: factors().map(|factor| factor.smallest()).collect(),
+        windup: streams.iter().map(has_wound_up).collect(),
+        samples: streams.iter().map(|stream| stream.samples() as i64).collect(),
+    }
+}
+
+/// Whether P has grown to more than ten times its first value, as an update says it.
+fn has_wound_up<T: Number>(stream: &AnyEstimator<T>) -> bool {
+    let first = stream.prior().factor().largest();
+    stream.factor().largest() > T::from_f64(AnyEstimator::<T>::WINDUP) * first
+}

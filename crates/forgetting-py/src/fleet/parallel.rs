@@ -1,0 +1,53 @@
+//! Streams on several cores.
+
+use forgetting::fleet::{Samples, Told};
+use forgetting::Real;
+use rayon::prelude::*;
+use std::sync::OnceLock;
+
+/// Numbers of the state from which on a second core gains more than it costs to wake it.
+const LARGE: usize = 1 << 19;
+/// Parts for each core, so that one that is held up does not hold up the others.
+const SHARES: usize = 4;
+
+/// In how many parts streams with so many numbers in all are updated: in `threads` if that is
+/// given, else in what suits the machine.
+pub fn parts(threads: Option<usize>, numbers: usize) -> usize {
+    match threads {
+        Some(1) => 1,
+        _ if !has_threads() => 1,
+        Some(threads) => threads,
+        None if numbers < LARGE => 1,
+        None => match rayon::current_num_threads() {
+            1 => 1,
+            cores => SHARES * cores,
+        },
+    }
+}
+
+/// Whether this process has the threads: one that was forked from another has not.
+fn has_threads() -> bool {
+    static PROCESS: OnceLock<u32> = OnceLock::new();
+    *PROCESS.get_or_init(std::process::id) == std::process::id()
+}
+
+/// Gives each part, of so many streams of n parameters, what is its own of samples and results;
+/// returns the sum of what `work` returns.
+pub fn sum<'a, T: Real, P: Send>(
+    parts: impl Iterator<Item = (usize, P)>,
+    n: usize,
+    (mut samples, mut told): (Samples<'a, T>, Told<'a, T>),
+    work: impl Fn(P, Samples<'a, T>, Told<'a, T>) -> usize + Sync + Send,
+) -> usize {
+    let mut tasks = Vec::new();
+    for (count, part) in parts {
+        let (own_samples, own_told);
+        (own_samples, samples) = samples.split_at(count, n);
+        (own_told, told) = told.split_at(count);
+        tasks.push((part, own_samples, own_told));
+    }
+    if tasks.len() < 2 {
+        return tasks.into_iter().map(|(part, samples, told)| work(part, samples, told)).sum();
+    }
+    tasks.into_par_iter().map(|(part, samples, told)| work(part, samples, told)).sum()
+}

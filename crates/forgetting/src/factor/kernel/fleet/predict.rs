@@ -1,0 +1,47 @@
+//! φθ of each stream.
+
+use crate::fleet::{Layout, Line};
+use crate::vector::{Abreast, Vector};
+use crate::{Kernel, Lane, Real};
+
+/// Writes φθ of each stream to `prediction`.
+pub struct Predict<'a, T: Real> {
+    pub layout: Layout,
+    pub lines: &'a [Line<T>],
+    /// n numbers a stream
+    pub phi: &'a [T],
+    pub prediction: &'a mut [T],
+}
+
+impl<T: Real> Kernel<T> for Predict<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn size(&self) -> usize {
+        self.phi.len()
+    }
+
+    #[inline(always)]
+    fn run<V: Vector<T>, const GROUP: usize>(self) {
+        let Self { layout, lines, phi, prediction } = self;
+        let (lanes, first) = (Line::<T>::LANES, layout.theta());
+        let n = layout.length() - first;
+        let blocks = lines.chunks_exact(layout.length());
+        let samples = phi.chunks(n * lanes).zip(prediction.chunks_mut(lanes));
+        for (block, (phi, prediction)) in blocks.zip(samples) {
+            let mut products = Line::splat(T::ZERO);
+            for lane in (0..lanes).step_by(V::Abreast::COUNT) {
+                let mut product = V::Abreast::splat(T::ZERO);
+                for (i, theta) in block[first..].iter().enumerate() {
+                    let phi = V::Abreast::at(|k| match phi.get((lane + k) * n + i) {
+                        Some(&phi) => phi,
+                        None => T::ZERO,
+                    });
+                    product = phi.mul_add(V::Abreast::read(&theta.0.as_ref()[lane..]), product);
+                }
+                product.write(&mut products.0.as_mut()[lane..]);
+            }
+            prediction.copy_from_slice(&products.0.as_ref()[..prediction.len()]);
+        }
+    }
+}

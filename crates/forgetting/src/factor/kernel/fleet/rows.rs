@@ -1,0 +1,45 @@
+//! The samples of a block: numbers of one stream after the other, as vectors with a stream in
+//! each lane.
+
+#![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
+
+use super::{Abreast, Line, Real, Samples};
+use core::ops::Range;
+
+/// The most streams of a block.
+const MOST: usize = 16;
+
+/// The regressors of fewer streams than lanes, and zeros.
+#[inline(always)]
+pub fn filled<T: Real, const N: usize>(rows: &[[T; N]]) -> [[T; N]; MOST] {
+    let mut filled = [[T::ZERO; N]; MOST];
+    filled[..rows.len()].copy_from_slice(rows);
+    filled
+}
+
+/// The first rows as columns.
+#[inline(always)]
+pub fn columns<T: Real, A: Abreast<T>, const N: usize>(rows: &[[T; N]]) -> [A; N] {
+    let rows = &rows[..A::COUNT];
+    let mut columns = [A::splat(T::ZERO); N];
+    for i in 0..N {
+        columns[i] = A::at(|lane| rows[lane][i]);
+    }
+    columns
+}
+
+/// The y of these streams; NaN where one has no sample, and in the lanes that are over.
+#[inline(always)]
+pub fn outputs<T: Real>(samples: &Samples<'_, T>, streams: Range<usize>) -> Line<T> {
+    let y = &samples.y[streams.clone()];
+    if let (None, [chunk, ..]) = (samples.mask, T::chunks(y).0) {
+        return Line(*chunk);
+    }
+    let mut line = Line::splat(T::from_f64(f64::NAN));
+    for (lane, &y) in y.iter().enumerate() {
+        if samples.mask.is_none_or(|mask| mask[streams.start + lane]) {
+            line.set(lane, y);
+        }
+    }
+    line
+}

@@ -1,0 +1,75 @@
+//! Which estimators can be streams of one fleet.
+
+use crate::gates::Gate;
+use crate::parameter::Value;
+use crate::rates::Rate;
+use crate::rules::Forgetting;
+use crate::saved::{write_choice, AnyEstimator};
+use crate::weighting::Weighting;
+use crate::{Error, Memory, Real};
+use alloc::vec::Vec;
+
+/// Refuses an `estimator` that differs from `fresh` in more than a constant forgetting factor,
+/// the prior and the state.
+///
+/// # Errors
+/// [`Error::Unsupported`] says what differs.
+pub fn check_kind<T: Real>(
+    fresh: &AnyEstimator<T>,
+    estimator: &AnyEstimator<T>,
+) -> Result<(), Error> {
+    let (of_fleet, own) = (fresh.prior().memory(), estimator.prior().memory());
+    let constant = |estimator: &AnyEstimator<T>| estimator.rate().constant().is_some();
+    let same_rate = || match (constant(fresh), constant(estimator)) {
+        (true, true) => Ok(true),
+        _ => Ok(rate(fresh)? == rate(estimator)?),
+    };
+    let reason = if own.parameters() != of_fleet.parameters() {
+        "a stream has as many parameters as its fleet"
+    } else if own != of_fleet {
+        "a stream has one row and one target"
+    } else if rule(fresh)? != rule(estimator)? {
+        "a stream has the rule of its fleet, with the same parameters"
+    } else if !same_rate()? {
+        "a stream has the rate of its fleet; only a constant forgetting factor may differ"
+    } else if weighting(fresh)? != weighting(estimator)? {
+        "a stream has the weighting of its fleet"
+    } else if gate(fresh)? != gate(estimator)? {
+        "a stream has the gate of its fleet"
+    } else if estimator.health().is_some() {
+        "a stream of a fleet is not monitored"
+    } else {
+        return Ok(());
+    };
+    Err(Error::Unsupported { reason })
+}
+
+/// A choice as it is saved: two are the same if their bytes are.
+fn written(
+    name: &str,
+    each: impl FnOnce(&mut dyn FnMut(&str, Value<'_>)),
+) -> Result<Vec<u8>, Error> {
+    let mut bytes = Vec::new();
+    write_choice(&mut bytes, name, each)?;
+    Ok(bytes)
+}
+
+fn rule<T: Real>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
+    let rule = estimator.rule();
+    written(rule.about().name, |each| rule.describe(&mut |name, value| each(name, value)))
+}
+
+fn rate<T: Real>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
+    let rate = estimator.rate();
+    written(rate.about().name, |each| rate.describe(&mut |name, value| each(name, value)))
+}
+
+fn weighting<T: Real>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
+    let weighting = estimator.weighting();
+    written(weighting.about().name, |each| weighting.describe(&mut |name, value| each(name, value)))
+}
+
+fn gate<T: Real>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
+    let gate = estimator.gate();
+    written(gate.about().name, |each| gate.describe(&mut |name, value| each(name, value)))
+}

@@ -1,0 +1,290 @@
+//! Many independent streams of the same size and rule, updated together: a stream in each lane
+//! of the vectors.
+//!
+//! Each stream is the estimator of one row and one target that [`Fleet::get`] returns, and the
+//! recursion is the same source. With at most eight parameters the bits are those of as many
+//! estimators; with more, sums are taken in another order.
+
+mod kind;
+mod part;
+mod priors;
+mod read;
+mod storage;
+mod transfer;
+
+pub use kind::check_kind;
+pub use part::{Part, Parts, Samples, Told};
+pub(crate) use storage::{Layout, Line};
+
+use crate::factor::kernel::fleet::SCRATCH;
+use crate::factor::kernel::BLOCK;
+use crate::factor::Form;
+use crate::gates::Gate;
+use crate::rates::{AnyRate, Constant, Rate};
+use crate::rules::Forgetting;
+use crate::saved::AnyEstimator;
+use crate::weighting::Weighting;
+use crate::{Dynamic, Error, Estimator, Memory, Prior, Real};
+use alloc::vec::Vec;
+use priors::Priors;
+use transfer::Numbers;
+
+/// The code of a stream that refused its sample, beside those of [`Skip`](crate::rules::Skip).
+pub const REFUSED: u8 = u8::MAX;
+
+/// Streams of one rule that only scales P or adds to it along the regressor
+/// ([`Forgetting::form`]), each with a constant forgetting factor.
+///
+/// ```
+/// use forgetting::fleet::{Fleet, Samples, Told};
+/// use forgetting::parameter::Defaults;
+/// use forgetting::rates::AnyRate;
+/// use forgetting::rules::Rule;
+/// use forgetting::weighting::AnyWeighting;
+/// use forgetting::{Dynamic, Estimator, Prior};
+///
+/// let memory = Dynamic::<f64>::new(2, 1, 1)?;
+/// let one = Estimator::new(
+///     Rule::named("exponential", &Defaults, memory)?,
+///     AnyRate::named("constant", &Defaults, memory)?,
+///     AnyWeighting::named("equal", &Defaults, memory)?,
+///     Prior::scalar(memory, 100.0)?,
+/// );
+/// let mut fleet = Fleet::of(one)?;
+/// fleet.grow(3)?;
+/// for k in 0..50 {
+///     let x = f64::from(k % 7);
+///     let (phi, y) = ([1.0, x, 1.0, x, 1.0, x], [x, 1.0 + x, 2.0 + x]);
+///     let told = Told { error: None, leverage: None, skipped: None };
+///     let used = fleet.update(Samples { phi: &phi, y: &y, mask: None }, told)?;
+///     assert_eq!(used, 3);
+/// }
+/// assert!((fleet.get(2).theta()[0] - 2.0).abs() < 1e-3);
+/// # Ok::<(), forgetting::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Fleet<T: Real> {
+    /// what a new stream starts as
+    fresh: AnyEstimator<T>,
+    form: Form<T>,
+    layout: Layout,
+    /// the numbers of a new stream
+    start: Vec<T>,
+    count: usize,
+    lines: Vec<Line<T>>,
+    offered: Vec<u64>,
+    unused: Vec<u64>,
+    /// one line, or one a block if `factors` differ
+    strengths: Vec<Line<T>>,
+    /// λ of each stream; empty if all have that of a new one
+    factors: Vec<T>,
+    priors: Priors<T>,
+    scratch: Vec<Line<T>>,
+}
+
+impl<T: Real> Fleet<T> {
+    /// No streams yet; new ones will start as `fresh` is configured.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] for an estimator that does more at a sample than to forget in one
+    /// of the ways of [`Form`], measure and correct.
+    pub fn of(mut fresh: AnyEstimator<T>) -> Result<Self, Error> {
+        fresh.reset();
+        let Some(form) = form_of(&fresh) else {
+            let reason =
+                "this fleet takes one row, one target, no monitor, no gate, equal weights, a \
+                          constant forgetting factor and a rule that has a form";
+            return Err(Error::Unsupported { reason });
+        };
+        let n = fresh.prior().memory().parameters();
+        let layout = Layout::new(n);
+        let start = Numbers::of(&mut fresh, layout.length())?.numbers;
+        Ok(Self {
+            priors: Priors::of(fresh.prior().clone()),
+            strengths: Vec::from([Line::splat(strength(form))]),
+            scratch: Vec::new(),
+            lines: Vec::new(),
+            offered: Vec::new(),
+            unused: Vec::new(),
+            factors: Vec::new(),
+            count: 0,
+            fresh,
+            form,
+            layout,
+            start,
+        })
+    }
+
+    /// How many streams there are.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// What a new stream starts as.
+    pub fn fresh(&self) -> &AnyEstimator<T> {
+        &self.fresh
+    }
+
+    /// n
+    pub fn parameters(&self) -> usize {
+        self.fresh.prior().memory().parameters()
+    }
+
+    /// Takes a sample for each stream; returns how many used it. See [`Part::update`].
+    ///
+    /// # Errors
+    /// [`Error::Length`] unless everything given has as many numbers as there are streams; then
+    /// nothing has changed.
+    pub fn update(
+        &mut self,
+        samples: Samples<'_, T>,
+        mut told: Told<'_, T>,
+    ) -> Result<usize, Error> {
+        let count = self.count;
+        Error::check_length("phi", samples.phi.len(), count * self.parameters())?;
+        Error::check_length("y", samples.y.len(), count)?;
+        Error::check_length("mask", samples.mask.map_or(count, <[bool]>::len), count)?;
+        let length = |numbers: &Option<&mut [T]>| numbers.as_ref().map_or(count, |all| all.len());
+        Error::check_length("error", length(&told.error), count)?;
+        Error::check_length("leverage", length(&told.leverage), count)?;
+        let codes = told.skipped.as_ref().map_or(count, |all| all.len());
+        Error::check_length("skipped", codes, count)?;
+        Ok(self.parts(1)?.next().map_or(0, |mut part| part.update(samples, &mut told)))
+    }
+
+    /// The streams in at most `most` parts, which can take their samples at the same time.
+    ///
+    /// # Errors
+    /// [`Error::Memory`] when there is none for more parts than ever before.
+    pub fn parts(&mut self, most: usize) -> Result<Parts<'_, T>, Error> {
+        let n = self.parameters();
+        let blocks = self.offered.len().div_ceil(most.max(1)).max(1);
+        let scratch = if n > BLOCK { SCRATCH * n } else { 0 };
+        let lines = scratch * self.offered.len().div_ceil(blocks);
+        extend(&mut self.scratch, lines, Line::splat(T::ZERO))?;
+        let rest = Part {
+            count: self.count,
+            n,
+            form: self.form,
+            strengths: &self.strengths,
+            lines: &mut self.lines,
+            offered: &mut self.offered,
+            unused: &mut self.unused,
+            scratch: &mut self.scratch,
+        };
+        Ok(Parts { rest, blocks, scratch })
+    }
+
+    /// Adds `count` streams after the last.
+    ///
+    /// # Errors
+    /// [`Error::Memory`] when there is none; nothing has changed.
+    pub fn grow(&mut self, count: usize) -> Result<(), Error> {
+        let streams = self.count.checked_add(count).ok_or(Error::Memory)?;
+        let blocks = streams.div_ceil(Line::<T>::LANES);
+        let length = self.layout.length();
+        let lines = blocks.checked_mul(length).ok_or(Error::Memory)?;
+        reserve(&mut self.lines, lines)?;
+        reserve(&mut self.offered, blocks)?;
+        reserve(&mut self.unused, streams)?;
+        self.priors.reserve(streams)?;
+        if !self.factors.is_empty() {
+            reserve(&mut self.factors, streams)?;
+            reserve(&mut self.strengths, blocks)?;
+            self.factors.resize(streams, self.factor());
+            self.strengths.resize(blocks, Line::splat(strength(self.form)));
+        }
+        self.offered.resize(blocks, 0);
+        for stream in self.count..streams {
+            // a new lane of the last block is offered what the others are
+            self.unused.push(self.offered[stream / Line::<T>::LANES]);
+        }
+        let old = self.lines.len() / length;
+        self.lines.resize(lines, Line::splat(T::ZERO));
+        for lines in self.lines[old * length..].chunks_exact_mut(length) {
+            for (line, &x) in lines.iter_mut().zip(&self.start) {
+                *line = Line::splat(x);
+            }
+        }
+        self.priors.grow(count);
+        self.count = streams;
+        Ok(())
+    }
+
+    /// The λ of a new stream.
+    fn factor(&self) -> T {
+        self.fresh.rate().constant().unwrap_or(T::ONE)
+    }
+
+    /// λ of a stream.
+    pub fn forgetting_factor(&self, stream: usize) -> T {
+        self.factors.get(stream).copied().unwrap_or(self.factor())
+    }
+
+    /// Samples that a stream has used.
+    pub fn samples(&self, stream: usize) -> u64 {
+        self.offered[stream / Line::<T>::LANES].wrapping_sub(self.unused[stream])
+    }
+
+    /// A copy of the stream, as an estimator that goes on from there.
+    ///
+    /// # Panics
+    /// If there is no such stream.
+    pub fn get(&self, stream: usize) -> AnyEstimator<T> {
+        let mut estimator =
+            self.like(self.forgetting_factor(stream), self.priors.get(stream).clone());
+        let mut numbers = Numbers::given(self.numbers(stream).collect(), self.samples(stream));
+        estimator.visit(&mut numbers);
+        estimator
+    }
+
+    /// The numbers of a stream.
+    fn numbers(&self, stream: usize) -> impl Iterator<Item = T> + '_ {
+        let (block, lane) = (stream / Line::<T>::LANES, stream % Line::<T>::LANES);
+        let length = self.layout.length();
+        self.lines[block * length..(block + 1) * length].iter().map(move |line| line.get(lane))
+    }
+
+    /// An estimator of this fleet's kind that starts at this prior.
+    fn like(&self, forgetting_factor: T, prior: Prior<Dynamic<T>>) -> AnyEstimator<T> {
+        let (rule, weighting) = (self.fresh.rule().clone(), self.fresh.weighting().clone());
+        let rate = match Constant::new(forgetting_factor) {
+            Ok(constant) => AnyRate::Constant(constant),
+            Err(_) => self.fresh.rate().clone(),
+        };
+        Estimator::new(rule, rate, weighting, prior)
+    }
+}
+
+/// How an estimator forgets at every sample, if that is all that it does to P.
+fn form_of<T: Real>(estimator: &AnyEstimator<T>) -> Option<Form<T>> {
+    let memory = estimator.prior().memory();
+    let single = (memory.rows(), memory.targets()) == (1, 1)
+        && estimator.health().is_none()
+        && estimator.gate().is_open();
+    // as any estimator: less than the rounding unit forgets every digit all the same
+    let lambda = estimator.rate().constant()?.max(T::EPSILON);
+    estimator.rule().form(lambda).filter(|_| single && estimator.weighting().is_equal())
+}
+
+/// What distinguishes forms of one rule.
+fn strength<T: Real>(form: Form<T>) -> T {
+    match form {
+        Form::Scale { growth } => growth,
+        Form::Along { weight, .. } => weight,
+    }
+}
+
+/// Room for `length` numbers in all.
+fn reserve<X>(numbers: &mut Vec<X>, length: usize) -> Result<(), Error> {
+    let more = length.saturating_sub(numbers.len());
+    numbers.try_reserve(more).map_err(|_| Error::Memory)
+}
+
+fn extend<X: Clone>(numbers: &mut Vec<X>, length: usize, x: X) -> Result<(), Error> {
+    reserve(numbers, length)?;
+    if numbers.len() < length {
+        numbers.resize(length, x);
+    }
+    Ok(())
+}

@@ -1,0 +1,94 @@
+//! Many samples in one go beside the same samples one by one: the same bits.
+
+use forgetting::factor::kernel::Told;
+use forgetting::rules::Directional;
+use forgetting::{
+    Constant, Dynamic, Equal, Estimator, Exponential, Forgetting, NoForgetting, Prior, Real,
+    Subspace,
+};
+
+type Plain<F, T> = Estimator<F, Constant<Dynamic<T>>, Equal<Dynamic<T>>, Dynamic<T>>;
+
+/// Sizes around those at which the way of computing changes.
+pub fn sizes() -> impl Iterator<Item = usize> {
+    (1..=18).chain([24, 39, 40, 41, 64, 100])
+}
+
+/// A few regressors are short enough to be left out; some errors are large.
+fn record<T: Real>(n: usize, samples: usize) -> (Vec<T>, Vec<T>) {
+    let mut seed = n as u64 + 7;
+    let mut next = move || {
+        seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    };
+    let mut phi = Vec::new();
+    for k in 0..samples {
+        let scale = if k % 11 == 5 { 1e-5 } else { 1.0 };
+        phi.extend((0..n).map(|_| T::from_f64(scale * next())));
+    }
+    let y = (0..samples).map(|k| T::from_f64(next() * if k % 7 == 3 { 1e4 } else { 1.0 }));
+    (phi, y.collect())
+}
+
+fn state<F: Forgetting<Dynamic<T>>, T: Real>(estimator: &Plain<F, T>) -> Vec<u64> {
+    let factor = estimator.factor();
+    [estimator.theta(), factor.packed_columns(), factor.diagonal_elements()]
+        .iter()
+        .flat_map(|part| part.iter().map(|x| x.to_f64().to_bits()))
+        .chain([estimator.samples()])
+        .collect()
+}
+
+/// Goes both ways through a record of which one sample cannot be used; returns the last state.
+fn follow<F: Forgetting<Dynamic<T>>, T: Real>(rule: F, n: usize, watched: bool) -> Vec<u64> {
+    const SAMPLES: usize = 90;
+    let memory = Dynamic::<T>::new(n, 1, 1).unwrap();
+    let (rate, prior) = (Constant::new(T::from_f64(0.97)), Prior::scalar(memory, T::from_f64(9.0)));
+    let mut together = Estimator::new(rule, rate.unwrap(), Equal::new(), prior.unwrap());
+    let mut apart = together.clone();
+    if watched {
+        apart.watch();
+    }
+    let (mut phi, y) = record::<T>(n, SAMPLES);
+    phi[50 * n] = T::from_f64(f64::NAN);
+    let (mut told, mut thetas) = ([Told::default(); 17], vec![T::ZERO; 17 * n]);
+    let mut k = 0;
+    while k < SAMPLES {
+        let taken = together.advance(&phi[k * n..], &y[k..], &mut told, &mut thetas);
+        for (told, after) in told[..taken].iter().zip(thetas.chunks(n)) {
+            let one = apart.update(&phi[k * n..(k + 1) * n], &y[k..=k]).unwrap();
+            let many = together.update_of(told);
+            assert_eq!(
+                (one.error, one.leverage, one.forgetting_factor, one.rank, one.skipped),
+                (many.error, many.leverage, many.forgetting_factor, many.rank, many.skipped),
+                "n = {n}, sample {k}"
+            );
+            assert!(watched || one.windup == many.windup, "n = {n}, sample {k}");
+            assert_eq!(apart.theta(), after, "n = {n}, sample {k}");
+            k += 1;
+        }
+        if taken == 0 {
+            assert_eq!(k, 50, "n = {n}");
+            let before = state(&together);
+            together.update(&phi[k * n..(k + 1) * n], &y[k..=k]).unwrap_err();
+            assert_eq!(before, state(&together));
+            phi[50 * n] = T::ONE;
+        }
+    }
+    assert!(together.is_sound());
+    assert_eq!(state(&together), state(&apart), "n = {n}");
+    state(&together)
+}
+
+/// Every rule that is done while it measures; returns all states.
+pub fn check<T: Real>(n: usize) -> Vec<u64> {
+    let threshold = T::from_f64(1e-3);
+    let mut states = Vec::new();
+    for watched in [false, true] {
+        states.extend(follow::<_, T>(NoForgetting::new(), n, watched));
+        states.extend(follow::<_, T>(Exponential::new(), n, watched));
+        states.extend(follow::<_, T>(Subspace::new(threshold).unwrap(), n, watched));
+        states.extend(follow::<_, T>(Directional::new(threshold).unwrap(), n, watched));
+    }
+    states
+}

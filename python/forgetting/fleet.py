@@ -1,0 +1,109 @@
+"""A fleet's health, and fleets as Arrow tables."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._core import Fleet, InvalidInput
+from .health import EDGE
+
+#: Where a table keeps the state of a new stream, among the metadata of its schema.
+FRESH = b"forgetting.fleet.fresh"
+
+
+@dataclass(frozen=True, eq=False)
+class FleetHealth:
+    """What is known of each stream's P: one number a stream.
+
+    Attributes
+    ----------
+    largest_eigenvalue, smallest_eigenvalue : (count,) ndarray
+        The largest and smallest element of D: the largest eigenvalue of P is at least that, the
+        smallest at most that.
+    condition : (count,) ndarray
+        Their ratio: a lower bound of the condition number of P.
+    windup : (count,) ndarray of bool
+        Whether D has grown to more than ten times its first largest element.
+    saturated : (count,) ndarray of bool
+        Whether P is at the edge of its number type.
+    samples : (count,) ndarray of int64
+        Samples used since the start.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import forgetting as fg
+    >>> fleet = fg.Fleet(3, 2, rule=fg.Exponential(0.9))
+    >>> phi = np.array([[1.0, 0.0], [1.0, 0.0], [0.0, 1.0]])  # one direction each
+    >>> for k in range(200):
+    ...     u = fleet.update(phi, np.ones(3), mask=np.array([True, False, True]))
+    >>> fleet.health().status.tolist()
+    ['windup', 'ok', 'windup']
+    """
+
+    largest_eigenvalue: NDArray[np.floating[Any]]
+    smallest_eigenvalue: NDArray[np.floating[Any]]
+    condition: NDArray[np.floating[Any]]
+    windup: NDArray[np.bool_]
+    saturated: NDArray[np.bool_]
+    samples: NDArray[np.int64]
+
+    @property
+    def status(self) -> NDArray[np.str_]:
+        """In a word, (count,): "ok", "windup" or "saturated"."""
+        return np.where(self.saturated, "saturated", np.where(self.windup, "windup", "ok"))
+
+
+def health_of(
+    dtype: str,
+    largest: NDArray[np.floating[Any]],
+    smallest: NDArray[np.floating[Any]],
+    windup: NDArray[np.bool_],
+    samples: NDArray[np.int64],
+) -> FleetHealth:
+    """The health of streams with these extreme elements of D; see `Fleet.health`."""
+    edge = largest.dtype.type(EDGE[dtype])
+    saturated = (largest > edge) | (smallest < 1 / edge)
+    # D is from 2**-500 to 2**500 (2**-62 to 2**62): the ratio of two fits only in f64
+    with np.errstate(over="ignore"):
+        condition = largest / smallest
+    return FleetHealth(largest, smallest, condition, windup, saturated, samples)
+
+
+def to_arrow(fleet: Fleet) -> Any:
+    """The streams as an Arrow table; see `Fleet.to_arrow`."""
+    pa = _pyarrow()
+    fresh, *states = fleet._states()
+    schema = pa.schema(
+        [pa.field("stream", pa.int64(), False), pa.field("state", pa.large_binary(), False)],
+        metadata={FRESH: fresh},
+    )
+    return pa.table([np.arange(len(states)), states], schema=schema)
+
+
+def from_arrow(table: Any) -> Fleet:
+    """The fleet of an Arrow table; see `Fleet.from_arrow`."""
+    pa = _pyarrow()
+    if not isinstance(table, pa.Table):
+        raise InvalidInput(f"table is of type {type(table).__name__}, allowed: a pyarrow.Table")
+    if "state" not in table.column_names:
+        raise InvalidInput(f"table has the columns {table.column_names}, but no column state")
+    states = table.column("state").to_pylist()
+    if not states or not all(isinstance(state, bytes) for state in states):
+        raise InvalidInput("the column state must hold the state of one stream or more, as bytes")
+    fresh = (table.schema.metadata or {}).get(FRESH, states[0])
+    return Fleet._of_states(fresh, states)
+
+
+def _pyarrow() -> Any:
+    try:
+        import pyarrow
+    except ImportError:
+        raise ImportError(
+            "fleets are saved with pyarrow: pip install 'forgetting[cli]' brings it"
+        ) from None
+    return pyarrow
