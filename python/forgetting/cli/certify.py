@@ -9,9 +9,9 @@ import numpy as np
 import forgetting as fg
 from forgetting.cli import options
 from forgetting.cli.identify import parse_covariance, parse_orders
-from forgetting.cli.rulebook import make_rule
+from forgetting.cli.rulebook import make_gate, make_rule
 
-OUTPUTS = ["theta", "error", "leverage", "forgetting_factor", "skipped", "covariance"]
+OUTPUTS = ["error", "forgetting_factor", "skipped", "covariance", "prior_covariance"]
 
 
 def certify(
@@ -25,12 +25,13 @@ def certify(
     forgetting_factor: options.ForgettingFactor = None,
     threshold: options.Threshold = None,
     settings: options.Settings = None,
+    gate: options.GateText = None,
     initial_covariance: options.InitialCovariance = "100",
     as_json: options.Json = False,
 ) -> int:
     """Say when to trust the estimates: excitation, stability, bounds and windup.
 
-    Exit code 0, or 1 when the covariance wound up. Samples with a missing value are left out.
+    Exit code 0, or 1 when the covariance wound up. Samples with a missing value are skipped.
     """
     from forgetting import analysis
     from forgetting.record.identify import build, listed
@@ -40,14 +41,17 @@ def certify(
     orders = None if arx is None else parse_orders(arx)
     source = read(record, time)
     samples = build(source, formula, listed(output or ()), listed(input or ()), orders)
-    complete = ~(np.isnan(samples.phi).any(axis=1) | np.isnan(samples.y).any(axis=1))
-    phi, y = samples.phi[complete], samples.y[complete]
-    covariance = parse_covariance(initial_covariance)
-    est = fg.RLS(phi.shape[1], rule=made, targets=y.shape[1], initial_covariance=covariance)
+    est = fg.RLS(
+        samples.phi.shape[1],
+        rule=made,
+        gate=make_gate(gate),
+        targets=samples.y.shape[1],
+        initial_covariance=parse_covariance(initial_covariance),
+    )
     start = np.asarray(est.covariance)
     found = analysis.certify(
-        est.run(phi, y, outputs=OUTPUTS),
-        phi,
+        est.run(samples.phi, samples.y, outputs=OUTPUTS, missing="skip"),
+        samples.phi,
         initial_covariance=start,
         rule=made,
         names=list(samples.regressors),
