@@ -16,16 +16,8 @@ pub trait Vector<T: Real>: Lane<T> {
 
     /// The numbers of `chunk`.
     fn load(chunk: &T::Chunk) -> Self;
-    /// The numbers of `first`, at most [`HALF`]; 0 in the other lanes.
-    fn load_first(first: &[T]) -> Self;
-    /// The numbers of `half`; 0 in the other lanes.
-    fn load_half(half: &[T; HALF]) -> Self;
     /// Writes all lanes to `chunk`.
     fn store(self, chunk: &mut T::Chunk);
-    /// Writes the first lanes to `first`, at most [`HALF`] numbers.
-    fn store_first(self, first: &mut [T]);
-    /// Writes the first [`HALF`] lanes to `half`.
-    fn store_half(self, half: &mut [T; HALF]);
     /// The sum of all lanes: halves added to halves down to four, then pairs.
     fn sum(self) -> T;
     /// The sum of each of `C` vectors.
@@ -68,9 +60,6 @@ impl<T: Real> Abreast<T> for T {
         number(0)
     }
 }
-
-/// Half a chunk of small numbers, a whole one of large: the columns of a block of U.
-pub const HALF: usize = 8;
 
 /// `L` numbers, 8 or 16, as an array: what the compiler makes of it.
 #[derive(Clone, Copy, Debug)]
@@ -157,32 +146,8 @@ impl<T: Real<Chunk = [T; L]>, const L: usize> Vector<T> for Lanes<T, L> {
         Self(*chunk)
     }
     #[inline(always)]
-    fn load_first(first: &[T]) -> Self {
-        let mut lanes = [T::ZERO; L];
-        for (lane, &x) in lanes[..HALF].iter_mut().zip(first) {
-            *lane = x;
-        }
-        Self(lanes)
-    }
-    #[inline(always)]
-    fn load_half(half: &[T; HALF]) -> Self {
-        let mut lanes = [T::ZERO; L];
-        lanes[..HALF].copy_from_slice(half);
-        Self(lanes)
-    }
-    #[inline(always)]
     fn store(self, chunk: &mut [T; L]) {
         *chunk = self.0;
-    }
-    #[inline(always)]
-    fn store_first(self, first: &mut [T]) {
-        for (x, &lane) in first.iter_mut().zip(&self.0[..HALF]) {
-            *x = lane;
-        }
-    }
-    #[inline(always)]
-    fn store_half(self, half: &mut [T; HALF]) {
-        half.copy_from_slice(&self.0[..HALF]);
     }
     #[inline(always)]
     fn sum(self) -> T {

@@ -3,47 +3,41 @@
 //! As everywhere in this folder: only what has checked the machine names these types, so that
 //! every intrinsic here has its instructions.
 
-use super::{Pair, Same, Wide};
+use super::{Pair, Wide};
 use crate::Fused;
 use core::arch::x86_64::*;
 use core::ops::{Add, Div, Mul, Neg, Sub};
-use forgetting::{Lane, One};
+use forgetting::Lane;
 
 /// An operator, for a pair of registers and for a wide one.
 macro_rules! operator {
-    ($Trait:ident $method:ident: $($register:ty => $intrinsic:ident),*; $($wide:ty => $wider:ident),*; $($small:ty => $smaller:ident),*) => {
-        $(impl $Trait for Pair<$register> {
+    ($($Trait:ident $method:ident: $pair_f64:ident $pair_f32:ident $wide_f64:ident $wide_f32:ident;)*) => {$(
+        operator!($Trait $method: __m256d $pair_f64, __m256 $pair_f32;
+            __m512d $wide_f64, __m512 $wide_f32);
+    )*};
+    ($Trait:ident $method:ident: $($pair:ident $of_pair:ident),*; $($wide:ident $of_wide:ident),*) => {
+        $(impl $Trait for Pair<$pair> {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
-                Self(unsafe { $intrinsic(self.0, other.0) }, unsafe { $intrinsic(self.1, other.1) })
+                Self(unsafe { $of_pair(self.0, other.0) }, unsafe { $of_pair(self.1, other.1) })
             }
         })*
         $(impl $Trait for Wide<$wide> {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
-                Self(unsafe { $wider(self.0, other.0) })
-            }
-        })*
-        $(impl $Trait for Same<$small> {
-            type Output = Self;
-            #[inline(always)]
-            fn $method(self, other: Self) -> Self {
-                Self(unsafe { $smaller(self.0, other.0) })
+                Self(unsafe { $of_wide(self.0, other.0) })
             }
         })*
     };
 }
-
-operator! { Add add: __m256d => _mm256_add_pd, __m256 => _mm256_add_ps;
-__m512d => _mm512_add_pd, __m512 => _mm512_add_ps; __m128d => _mm_add_pd, __m128 => _mm_add_ps }
-operator! { Sub sub: __m256d => _mm256_sub_pd, __m256 => _mm256_sub_ps;
-__m512d => _mm512_sub_pd, __m512 => _mm512_sub_ps; __m128d => _mm_sub_pd, __m128 => _mm_sub_ps }
-operator! { Mul mul: __m256d => _mm256_mul_pd, __m256 => _mm256_mul_ps;
-__m512d => _mm512_mul_pd, __m512 => _mm512_mul_ps; __m128d => _mm_mul_pd, __m128 => _mm_mul_ps }
-operator! { Div div: __m256d => _mm256_div_pd, __m256 => _mm256_div_ps;
-__m512d => _mm512_div_pd, __m512 => _mm512_div_ps; __m128d => _mm_div_pd, __m128 => _mm_div_ps }
+operator! {
+    Add add: _mm256_add_pd _mm256_add_ps _mm512_add_pd _mm512_add_ps;
+    Sub sub: _mm256_sub_pd _mm256_sub_ps _mm512_sub_pd _mm512_sub_ps;
+    Mul mul: _mm256_mul_pd _mm256_mul_ps _mm512_mul_pd _mm512_mul_ps;
+    Div div: _mm256_div_pd _mm256_div_ps _mm512_div_pd _mm512_div_ps;
+}
 
 /// The rest of the arithmetic of a pair of registers.
 macro_rules! pair {
@@ -185,75 +179,3 @@ wide!(f64, __m512d, __mmask8: _mm512_set1_pd _mm512_fmadd_pd _mm512_max_pd _mm51
     _mm512_abs_pd _mm512_cmp_pd_mask _mm512_xor_pd _mm512_mask_blend_pd);
 wide!(f32, __m512, __mmask16: _mm512_set1_ps _mm512_fmadd_ps _mm512_max_ps _mm512_sqrt_ps
     _mm512_abs_ps _mm512_cmp_ps_mask _mm512_xor_ps _mm512_mask_blend_ps);
-
-/// The rest of the arithmetic of a single number.
-macro_rules! same {
-    ($float:ident, $register:ty: $get:ident $set1:ident $fmadd:ident $max:ident $sqrt:ident $cmple:ident
-     $cmplt:ident $and:ident $andnot:ident $xor:ident $blendv:ident $movemask:ident) => {
-        impl Neg for Same<$register> {
-            type Output = Self;
-            #[inline(always)]
-            fn neg(self) -> Self {
-                Self(unsafe { $xor(self.0, $set1(-0.0)) })
-            }
-        }
-
-        impl One<Fused<$float>> for Same<$register> {
-            #[inline(always)]
-            fn get(self) -> Fused<$float> {
-                Fused(unsafe { $get(self.0) })
-            }
-        }
-
-        impl Lane<Fused<$float>> for Same<$register> {
-            type Mask = Self;
-
-            #[inline(always)]
-            fn splat(x: Fused<$float>) -> Self {
-                Self(unsafe { $set1(x.0) })
-            }
-            #[inline(always)]
-            fn mul_add(self, factor: Self, term: Self) -> Self {
-                Self(unsafe { $fmadd(self.0, factor.0, term.0) })
-            }
-            #[inline(always)]
-            fn max(self, other: Self) -> Self {
-                Self(unsafe { $max(self.0, other.0) })
-            }
-            #[inline(always)]
-            fn abs(self) -> Self {
-                Self(unsafe { $andnot($set1(-0.0), self.0) })
-            }
-            #[inline(always)]
-            fn sqrt(self) -> Self {
-                Self(unsafe { $sqrt(self.0) })
-            }
-            #[inline(always)]
-            fn at_most(self, limit: Self) -> Self {
-                Self(unsafe { $cmple(self.0, limit.0) })
-            }
-            #[inline(always)]
-            fn less_than(self, limit: Self) -> Self {
-                Self(unsafe { $cmplt(self.0, limit.0) })
-            }
-            #[inline(always)]
-            fn both(a: Self, b: Self) -> Self {
-                Self(unsafe { $and(a.0, b.0) })
-            }
-            #[inline(always)]
-            fn all(mask: Self) -> bool {
-                // every lane has the same number
-                unsafe { $movemask(mask.0) & 1 == 1 }
-            }
-            #[inline(always)]
-            fn select(mask: Self, yes: Self, no: Self) -> Self {
-                Self(unsafe { $blendv(no.0, yes.0, mask.0) })
-            }
-        }
-    };
-}
-
-same!(f64, __m128d: _mm_cvtsd_f64 _mm_set1_pd _mm_fmadd_pd _mm_max_pd _mm_sqrt_pd _mm_cmple_pd _mm_cmplt_pd
-    _mm_and_pd _mm_andnot_pd _mm_xor_pd _mm_blendv_pd _mm_movemask_pd);
-same!(f32, __m128: _mm_cvtss_f32 _mm_set1_ps _mm_fmadd_ps _mm_max_ps _mm_sqrt_ps _mm_cmple_ps _mm_cmplt_ps
-    _mm_and_ps _mm_andnot_ps _mm_xor_ps _mm_blendv_ps _mm_movemask_ps);

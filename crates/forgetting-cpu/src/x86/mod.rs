@@ -6,7 +6,7 @@
 use crate::level::Vectors;
 use crate::Fused;
 use core::arch::x86_64::*;
-use forgetting::vector::{Vector, HALF};
+use forgetting::vector::Vector;
 
 mod lanes;
 mod single;
@@ -31,11 +31,6 @@ impl Vectors for Fused<f32> {
     type Wide = Wide<__m512>;
 }
 
-/// One number, in every lane of a register of 128 bits: the compiler would pair single numbers
-/// with their neighbours, which costs more steps than it saves where each waits for the one before.
-#[derive(Clone, Copy, Debug)]
-pub struct Same<R>(R);
-
 /// The address of the numbers of an array.
 macro_rules! at {
     ($array:expr, $float:ty, $offset:expr) => {
@@ -49,74 +44,21 @@ macro_rules! at_mut {
 }
 use {at, at_mut};
 
-/// The first `count` of eight lanes.
-#[inline(always)]
-fn mask(count: usize) -> u8 {
-    debug_assert!(count <= HALF);
-    ((1u32 << (count & 15)) - 1) as u8
-}
-
-/// Ones, then zeros: a window of eight that starts `count` before the middle has `count` ones.
-const WINDOW64: [i64; 16] = [-1, -1, -1, -1, -1, -1, -1, -1, 0, 0, 0, 0, 0, 0, 0, 0];
-const WINDOW32: [i32; 16] = [-1, -1, -1, -1, -1, -1, -1, -1, 0, 0, 0, 0, 0, 0, 0, 0];
-
-#[inline(always)]
-fn window<T>(numbers: &[T; 16], count: usize) -> &[T; 8] {
-    match numbers[HALF - count..].first_chunk() {
-        Some(window) => window,
-        None => unreachable!("a window of eight fits, as count is at most eight"),
-    }
-}
-
-/// # Safety
-/// The machine has AVX.
-#[inline(always)]
-unsafe fn masks64(count: usize) -> (__m256i, __m256i) {
-    let lanes = window(&WINDOW64, count).as_ptr();
-    // SAFETY: both halves of eight numbers; the instructions by the caller's promise
-    unsafe { (_mm256_loadu_si256(lanes.cast()), _mm256_loadu_si256(lanes.add(4).cast())) }
-}
-
-/// # Safety
-/// The machine has AVX.
-#[inline(always)]
-unsafe fn masks32(count: usize) -> __m256i {
-    // SAFETY: eight numbers; the instructions by the caller's promise
-    unsafe { _mm256_loadu_si256(window(&WINDOW32, count).as_ptr().cast()) }
-}
-
 // SAFETY, for every `unsafe` below: the machine has the instructions (see the head of this
 // file), `Fused` has the layout of its number, and the addresses are those of arrays of at least
-// as many numbers as are read or written (lanes that a mask leaves out are not touched);
-// loads and stores need no alignment.
+// as many numbers as are read or written; loads and stores need no alignment.
 
 impl Vector<Fused<f64>> for Wide<__m512d> {
     type Abreast = Self;
-    type One = Same<__m128d>;
+    type One = Single<__m128d>;
 
     #[inline(always)]
     fn load(chunk: &[Fused<f64>; 8]) -> Self {
         Self(unsafe { _mm512_loadu_pd(at!(chunk, f64, 0)) })
     }
     #[inline(always)]
-    fn load_first(first: &[Fused<f64>]) -> Self {
-        Self(unsafe { _mm512_maskz_loadu_pd(mask(first.len()), at!(first, f64, 0)) })
-    }
-    #[inline(always)]
-    fn load_half(half: &[Fused<f64>; HALF]) -> Self {
-        Self::load(half)
-    }
-    #[inline(always)]
     fn store(self, chunk: &mut [Fused<f64>; 8]) {
         unsafe { _mm512_storeu_pd(at_mut!(chunk, f64, 0), self.0) }
-    }
-    #[inline(always)]
-    fn store_first(self, first: &mut [Fused<f64>]) {
-        unsafe { _mm512_mask_storeu_pd(at_mut!(first, f64, 0), mask(first.len()), self.0) }
-    }
-    #[inline(always)]
-    fn store_half(self, half: &mut [Fused<f64>; HALF]) {
-        self.store(half);
     }
     #[inline(always)]
     fn sum(self) -> Fused<f64> {
@@ -147,25 +89,11 @@ unsafe fn sums_of_four(vectors: &[Pair<__m256d>; 4]) -> [Fused<f64>; 4] {
 
 impl Vector<Fused<f64>> for Pair<__m256d> {
     type Abreast = Single<__m256d>;
-    type One = Same<__m128d>;
+    type One = Single<__m128d>;
 
     #[inline(always)]
     fn load(chunk: &[Fused<f64>; 8]) -> Self {
         unsafe { Self(_mm256_loadu_pd(at!(chunk, f64, 0)), _mm256_loadu_pd(at!(chunk, f64, 4))) }
-    }
-    #[inline(always)]
-    fn load_first(first: &[Fused<f64>]) -> Self {
-        unsafe {
-            let (low, high) = masks64(first.len());
-            Self(
-                _mm256_maskload_pd(at!(first, f64, 0), low),
-                _mm256_maskload_pd(at!(first, f64, 0).wrapping_add(4), high),
-            )
-        }
-    }
-    #[inline(always)]
-    fn load_half(half: &[Fused<f64>; HALF]) -> Self {
-        Self::load(half)
     }
     #[inline(always)]
     fn store(self, chunk: &mut [Fused<f64>; 8]) {
@@ -173,18 +101,6 @@ impl Vector<Fused<f64>> for Pair<__m256d> {
             _mm256_storeu_pd(at_mut!(chunk, f64, 0), self.0);
             _mm256_storeu_pd(at_mut!(chunk, f64, 4), self.1);
         }
-    }
-    #[inline(always)]
-    fn store_first(self, first: &mut [Fused<f64>]) {
-        unsafe {
-            let (low, high) = masks64(first.len());
-            _mm256_maskstore_pd(at_mut!(first, f64, 0), low, self.0);
-            _mm256_maskstore_pd(at_mut!(first, f64, 0).wrapping_add(4), high, self.1);
-        }
-    }
-    #[inline(always)]
-    fn store_half(self, half: &mut [Fused<f64>; HALF]) {
-        self.store(half);
     }
     #[inline(always)]
     fn sum(self) -> Fused<f64> {
@@ -213,32 +129,15 @@ impl Vector<Fused<f64>> for Pair<__m256d> {
 
 impl Vector<Fused<f32>> for Wide<__m512> {
     type Abreast = Self;
-    type One = Same<__m128>;
+    type One = Single<__m128>;
 
     #[inline(always)]
     fn load(chunk: &[Fused<f32>; 16]) -> Self {
         Self(unsafe { _mm512_loadu_ps(at!(chunk, f32, 0)) })
     }
     #[inline(always)]
-    fn load_first(first: &[Fused<f32>]) -> Self {
-        Self(unsafe { _mm512_maskz_loadu_ps(mask(first.len()).into(), at!(first, f32, 0)) })
-    }
-    #[inline(always)]
-    fn load_half(half: &[Fused<f32>; HALF]) -> Self {
-        Self(unsafe { _mm512_zextps256_ps512(_mm256_loadu_ps(at!(half, f32, 0))) })
-    }
-    #[inline(always)]
     fn store(self, chunk: &mut [Fused<f32>; 16]) {
         unsafe { _mm512_storeu_ps(at_mut!(chunk, f32, 0), self.0) }
-    }
-    #[inline(always)]
-    fn store_first(self, first: &mut [Fused<f32>]) {
-        let lanes = mask(first.len()).into();
-        unsafe { _mm512_mask_storeu_ps(at_mut!(first, f32, 0), lanes, self.0) }
-    }
-    #[inline(always)]
-    fn store_half(self, half: &mut [Fused<f32>; HALF]) {
-        unsafe { _mm256_storeu_ps(at_mut!(half, f32, 0), _mm512_castps512_ps256(self.0)) }
     }
     #[inline(always)]
     fn sum(self) -> Fused<f32> {
@@ -251,22 +150,11 @@ impl Vector<Fused<f32>> for Wide<__m512> {
 
 impl Vector<Fused<f32>> for Pair<__m256> {
     type Abreast = Single<__m256>;
-    type One = Same<__m128>;
+    type One = Single<__m128>;
 
     #[inline(always)]
     fn load(chunk: &[Fused<f32>; 16]) -> Self {
         unsafe { Self(_mm256_loadu_ps(at!(chunk, f32, 0)), _mm256_loadu_ps(at!(chunk, f32, 8))) }
-    }
-    #[inline(always)]
-    fn load_first(first: &[Fused<f32>]) -> Self {
-        unsafe {
-            let lanes = masks32(first.len());
-            Self(_mm256_maskload_ps(at!(first, f32, 0), lanes), _mm256_setzero_ps())
-        }
-    }
-    #[inline(always)]
-    fn load_half(half: &[Fused<f32>; HALF]) -> Self {
-        unsafe { Self(_mm256_loadu_ps(at!(half, f32, 0)), _mm256_setzero_ps()) }
     }
     #[inline(always)]
     fn store(self, chunk: &mut [Fused<f32>; 16]) {
@@ -274,14 +162,6 @@ impl Vector<Fused<f32>> for Pair<__m256> {
             _mm256_storeu_ps(at_mut!(chunk, f32, 0), self.0);
             _mm256_storeu_ps(at_mut!(chunk, f32, 8), self.1);
         }
-    }
-    #[inline(always)]
-    fn store_first(self, first: &mut [Fused<f32>]) {
-        unsafe { _mm256_maskstore_ps(at_mut!(first, f32, 0), masks32(first.len()), self.0) }
-    }
-    #[inline(always)]
-    fn store_half(self, half: &mut [Fused<f32>; HALF]) {
-        unsafe { _mm256_storeu_ps(at_mut!(half, f32, 0), self.0) }
     }
     #[inline(always)]
     fn sum(self) -> Fused<f32> {

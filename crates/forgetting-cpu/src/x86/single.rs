@@ -1,4 +1,4 @@
-//! One register of a stream in each lane.
+//! One register: of a stream in each lane, or of the same number in all.
 //!
 //! As everywhere in this folder: only what has checked the machine names these types, so that
 //! every intrinsic here has its instructions.
@@ -8,35 +8,30 @@ use crate::Fused;
 use core::arch::x86_64::*;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 use forgetting::vector::Abreast;
-use forgetting::Lane;
+use forgetting::{Lane, One};
 
-/// A register of 256 bits.
+/// A register of 256 bits, with a stream in each lane; or of 128, with the same number in all: the
+/// compiler would pair single numbers with their neighbours, which costs more steps than it saves
+/// where each waits for the one before.
 #[derive(Clone, Copy, Debug)]
 pub struct Single<R>(R);
 
 macro_rules! operator {
-    ($($Trait:ident $method:ident: $double:ident $float:ident;)*) => {$(
-        impl $Trait for Single<__m256d> {
+    ($($Trait:ident $method:ident: $($register:ident $intrinsic:ident),*;)*) => {$($(
+        impl $Trait for Single<$register> {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
-                Self(unsafe { $double(self.0, other.0) })
+                Self(unsafe { $intrinsic(self.0, other.0) })
             }
         }
-        impl $Trait for Single<__m256> {
-            type Output = Self;
-            #[inline(always)]
-            fn $method(self, other: Self) -> Self {
-                Self(unsafe { $float(self.0, other.0) })
-            }
-        }
-    )*};
+    )*)*};
 }
 operator! {
-    Add add: _mm256_add_pd _mm256_add_ps;
-    Sub sub: _mm256_sub_pd _mm256_sub_ps;
-    Mul mul: _mm256_mul_pd _mm256_mul_ps;
-    Div div: _mm256_div_pd _mm256_div_ps;
+    Add add: __m128d _mm_add_pd, __m128 _mm_add_ps, __m256d _mm256_add_pd, __m256 _mm256_add_ps;
+    Sub sub: __m128d _mm_sub_pd, __m128 _mm_sub_ps, __m256d _mm256_sub_pd, __m256 _mm256_sub_ps;
+    Mul mul: __m128d _mm_mul_pd, __m128 _mm_mul_ps, __m256d _mm256_mul_pd, __m256 _mm256_mul_ps;
+    Div div: __m128d _mm_div_pd, __m128 _mm_div_ps, __m256d _mm256_div_pd, __m256 _mm256_div_ps;
 }
 
 /// The rest of the arithmetic.
@@ -98,12 +93,31 @@ macro_rules! single {
     };
 }
 
+single!(f64, __m128d, 0x3: _mm_set1_pd _mm_fmadd_pd _mm_max_pd _mm_sqrt_pd _mm_cmp_pd _mm_and_pd
+    _mm_andnot_pd _mm_xor_pd _mm_blendv_pd _mm_movemask_pd);
+single!(f32, __m128, 0xF: _mm_set1_ps _mm_fmadd_ps _mm_max_ps _mm_sqrt_ps _mm_cmp_ps _mm_and_ps
+    _mm_andnot_ps _mm_xor_ps _mm_blendv_ps _mm_movemask_ps);
 single!(f64, __m256d, 0xF: _mm256_set1_pd _mm256_fmadd_pd _mm256_max_pd _mm256_sqrt_pd
     _mm256_cmp_pd _mm256_and_pd _mm256_andnot_pd _mm256_xor_pd _mm256_blendv_pd
     _mm256_movemask_pd);
 single!(f32, __m256, 0xFF: _mm256_set1_ps _mm256_fmadd_ps _mm256_max_ps _mm256_sqrt_ps
     _mm256_cmp_ps _mm256_and_ps _mm256_andnot_ps _mm256_xor_ps _mm256_blendv_ps
     _mm256_movemask_ps);
+
+/// One number, out of a register.
+macro_rules! one {
+    ($float:ident, $register:ty: $get:ident) => {
+        impl One<Fused<$float>> for Single<$register> {
+            #[inline(always)]
+            fn get(self) -> Fused<$float> {
+                Fused(unsafe { $get(self.0) })
+            }
+        }
+    };
+}
+
+one!(f64, __m128d: _mm_cvtsd_f64);
+one!(f32, __m128: _mm_cvtss_f32);
 
 /// Numbers of streams, in and out of a register.
 macro_rules! abreast {
