@@ -4,7 +4,7 @@ use crate::level::run;
 use bytemuck::TransparentWrapper;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 use forgetting::vector::Lanes;
-use forgetting::{Kernel, Real};
+use forgetting::{copy_some, Kernel, Real};
 
 /// An `f64` or `f32` whose `mul_add` is fused: it rounds once.
 ///
@@ -74,7 +74,7 @@ macro_rules! fused {
             #[inline(always)]
             fn chunk(numbers: &[Self]) -> Self::Chunk {
                 let mut chunk = [Self::ZERO; $lanes];
-                chunk[..numbers.len()].copy_from_slice(numbers);
+                copy_some(&mut chunk, numbers);
                 chunk
             }
             #[inline(always)]

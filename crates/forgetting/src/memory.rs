@@ -3,7 +3,7 @@
 //!
 //! The algorithms see slices only, so that both give the same bits.
 
-use crate::factor::kernel::{most, set_identity, SCRATCH};
+use crate::factor::kernel::{most, scratch, set_identity};
 use crate::Real;
 use core::fmt::Debug;
 use core::marker::PhantomData;
@@ -92,8 +92,12 @@ impl<T, const A: usize, const B: usize> AsMut<[T]> for Grid<T, A, B> {
 pub trait Packed<T> {
     /// [`most`] of n numbers
     type Triangle: Buffer<T>;
+    /// [`scratch`] of n numbers
+    type Scratch: Buffer<T>;
     /// U = I
     fn triangle() -> Self::Triangle;
+    /// Zeros.
+    fn scratch() -> Self::Scratch;
 }
 
 /// The size `N` as a type.
@@ -104,10 +108,14 @@ macro_rules! packed {
     ($($n:literal)*) => {$(
         impl<T: Real> Packed<T> for Size<$n> {
             type Triangle = [T; most($n)];
+            type Scratch = [T; scratch($n)];
             fn triangle() -> Self::Triangle {
                 let mut triangle = [T::ZERO; most($n)];
                 set_identity(&mut triangle, $n);
                 triangle
+            }
+            fn scratch() -> Self::Scratch {
+                [T::ZERO; scratch($n)]
             }
         }
     )*};
@@ -142,7 +150,7 @@ where
     type Noise = Grid<T, P, P>;
     type Errors = Grid<T, M, P>;
     type Parameters = Grid<T, N, M>;
-    type Scratch = Grid<T, N, SCRATCH>;
+    type Scratch = <Size<N> as Packed<T>>::Scratch;
     type List = [T; L];
 
     #[inline(always)]
@@ -179,7 +187,7 @@ where
         Grid([[T::ZERO; N]; M])
     }
     fn scratch(&self) -> Self::Scratch {
-        Grid([[T::ZERO; N]; SCRATCH])
+        <Size<N> as Packed<T>>::scratch()
     }
     fn list(&self, _: usize) -> [T; L] {
         [T::ZERO; L]
@@ -194,7 +202,7 @@ pub use dynamic::{Aligned, Dynamic};
 
 #[cfg(feature = "alloc")]
 mod dynamic {
-    use super::{set_identity, Memory, PhantomData, SCRATCH};
+    use super::{scratch, set_identity, Memory, PhantomData};
     use crate::factor::kernel::capacity;
     use crate::{Error, Real};
     use alloc::{vec, vec::Vec};
@@ -325,7 +333,7 @@ mod dynamic {
             Aligned::zeros(self.targets * self.parameters)
         }
         fn scratch(&self) -> Aligned<T> {
-            Aligned::zeros(SCRATCH * self.parameters)
+            Aligned::zeros(scratch(self.parameters))
         }
         fn list(&self, length: usize) -> Aligned<T> {
             Aligned::zeros(length.min(Self::LONGEST_LIST))

@@ -114,6 +114,18 @@ pub trait Real:
     }
 }
 
+/// Copies `from` to the beginning of `to`, or as much as there is room for.
+///
+/// One by one: a copy of any length would be a call, for which all registers are cleared.
+#[inline(always)]
+pub fn copy_some<T: Copy, const L: usize>(to: &mut [T; L], from: &[T]) {
+    for (i, to) in to.iter_mut().enumerate() {
+        if i < from.len() {
+            *to = from[i];
+        }
+    }
+}
+
 macro_rules! real {
     ($float:ident, $lanes:literal, $ceiling:expr, $floor:expr, $sqrt:path, $ln:path, $exp:path) => {
         impl Real for $float {
@@ -130,7 +142,7 @@ macro_rules! real {
             #[inline(always)]
             fn chunk(numbers: &[Self]) -> Self::Chunk {
                 let mut chunk = [0.0; $lanes];
-                chunk[..numbers.len()].copy_from_slice(numbers);
+                copy_some(&mut chunk, numbers);
                 chunk
             }
             #[inline(always)]

@@ -1,6 +1,6 @@
 //! Neighbouring numbers that go through the same operations together.
 
-use crate::{Lane, One, Real};
+use crate::{Eight, Lane, One, Real};
 use core::array;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -13,6 +13,8 @@ pub trait Vector<T: Real>: Lane<T> {
     type One: One<T>;
     /// What the streams of a fleet run in.
     type Abreast: Abreast<T>;
+    /// A number for each column of a block.
+    type Eight: Eight<T>;
 
     /// The numbers of `chunk`.
     fn load(chunk: &T::Chunk) -> Self;
@@ -63,7 +65,7 @@ impl<T: Real> Abreast<T> for T {
 
 /// `L` numbers, 8 or 16, as an array: what the compiler makes of it.
 #[derive(Clone, Copy, Debug)]
-pub struct Lanes<T, const L: usize>([T; L]);
+pub struct Lanes<T, const L: usize>(pub(crate) [T; L]);
 
 macro_rules! lane_by_lane {
     ($($Trait:ident $method:ident;)*) => {$(
@@ -140,6 +142,7 @@ impl<T: Real, const L: usize> Lane<T> for Lanes<T, L> {
 impl<T: Real<Chunk = [T; L]>, const L: usize> Vector<T> for Lanes<T, L> {
     type Abreast = T;
     type One = T;
+    type Eight = Lanes<T, 8>;
 
     #[inline(always)]
     fn load(chunk: &[T; L]) -> Self {

@@ -8,10 +8,13 @@ use crate::Fused;
 use core::arch::x86_64::*;
 use forgetting::vector::Vector;
 
+mod eight;
 mod lanes;
 mod single;
+mod sums;
 
 use single::Single;
+use sums::{sums, Sum};
 
 /// Two registers of 256 bits.
 #[derive(Clone, Copy, Debug)]
@@ -51,6 +54,7 @@ use {at, at_mut};
 impl Vector<Fused<f64>> for Wide<__m512d> {
     type Abreast = Self;
     type One = Single<__m128d>;
+    type Eight = Self;
 
     #[inline(always)]
     fn load(chunk: &[Fused<f64>; 8]) -> Self {
@@ -62,34 +66,18 @@ impl Vector<Fused<f64>> for Wide<__m512d> {
     }
     #[inline(always)]
     fn sum(self) -> Fused<f64> {
-        Pair(unsafe { _mm512_castpd512_pd256(self.0) }, unsafe {
-            _mm512_extractf64x4_pd::<1>(self.0)
-        })
-        .sum()
+        Sum::sum(self.halves())
     }
-}
-
-/// The sums of four vectors: what `sum` does to each, side by side.
-///
-/// # Safety
-/// The machine has AVX.
-#[inline(always)]
-unsafe fn sums_of_four(vectors: &[Pair<__m256d>; 4]) -> [Fused<f64>; 4] {
-    let mut sums = [Fused(0.0); 4];
-    // SAFETY: the instructions by the caller's promise; `Fused` has the layout of its number
-    unsafe {
-        let [a, b, c, d] = vectors.map(|Pair(low, high)| _mm256_add_pd(low, high));
-        let (ab, cd) = (_mm256_hadd_pd(a, b), _mm256_hadd_pd(c, d));
-        let low = _mm256_permute2f128_pd::<0x20>(ab, cd);
-        let high = _mm256_permute2f128_pd::<0x31>(ab, cd);
-        _mm256_storeu_pd(at_mut!(sums, f64, 0), _mm256_add_pd(low, high));
+    #[inline(always)]
+    fn sums<const C: usize>(vectors: [Self; C]) -> [Fused<f64>; C] {
+        sums(vectors.map(Self::halves), Fused(0.0))
     }
-    sums
 }
 
 impl Vector<Fused<f64>> for Pair<__m256d> {
     type Abreast = Single<__m256d>;
     type One = Single<__m128d>;
+    type Eight = Self;
 
     #[inline(always)]
     fn load(chunk: &[Fused<f64>; 8]) -> Self {
@@ -104,32 +92,18 @@ impl Vector<Fused<f64>> for Pair<__m256d> {
     }
     #[inline(always)]
     fn sum(self) -> Fused<f64> {
-        unsafe {
-            let four = _mm256_add_pd(self.0, self.1);
-            let (low, high) = (_mm256_castpd256_pd128(four), _mm256_extractf128_pd::<1>(four));
-            // (four[0] + four[1]) and (four[2] + four[3])
-            let pairs = _mm_hadd_pd(low, high);
-            Fused(_mm_cvtsd_f64(_mm_add_sd(pairs, _mm_unpackhi_pd(pairs, pairs))))
-        }
+        Sum::sum(self)
     }
     #[inline(always)]
     fn sums<const C: usize>(vectors: [Self; C]) -> [Fused<f64>; C] {
-        let mut sums = [Fused(0.0); C];
-        let (fours, rest) = vectors.as_chunks::<4>();
-        let (sums_of_fours, sums_of_rest) = sums.as_chunks_mut::<4>();
-        for (sums, four) in sums_of_fours.iter_mut().zip(fours) {
-            *sums = unsafe { sums_of_four(four) };
-        }
-        for (sum, vector) in sums_of_rest.iter_mut().zip(rest) {
-            *sum = vector.sum();
-        }
-        sums
+        sums(vectors, Fused(0.0))
     }
 }
 
 impl Vector<Fused<f32>> for Wide<__m512> {
     type Abreast = Self;
     type One = Single<__m128>;
+    type Eight = Single<__m256>;
 
     #[inline(always)]
     fn load(chunk: &[Fused<f32>; 16]) -> Self {
@@ -141,16 +115,18 @@ impl Vector<Fused<f32>> for Wide<__m512> {
     }
     #[inline(always)]
     fn sum(self) -> Fused<f32> {
-        Pair(unsafe { _mm512_castps512_ps256(self.0) }, unsafe {
-            _mm512_extractf32x8_ps::<1>(self.0)
-        })
-        .sum()
+        Sum::sum(self.halves())
+    }
+    #[inline(always)]
+    fn sums<const C: usize>(vectors: [Self; C]) -> [Fused<f32>; C] {
+        sums(vectors.map(Self::halves), Fused(0.0))
     }
 }
 
 impl Vector<Fused<f32>> for Pair<__m256> {
     type Abreast = Single<__m256>;
     type One = Single<__m128>;
+    type Eight = Single<__m256>;
 
     #[inline(always)]
     fn load(chunk: &[Fused<f32>; 16]) -> Self {
@@ -165,12 +141,10 @@ impl Vector<Fused<f32>> for Pair<__m256> {
     }
     #[inline(always)]
     fn sum(self) -> Fused<f32> {
-        unsafe {
-            let eight = _mm256_add_ps(self.0, self.1);
-            let four = _mm_add_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps::<1>(eight));
-            // (four[0] + four[1]) and (four[2] + four[3])
-            let pairs = _mm_hadd_ps(four, four);
-            Fused(_mm_cvtss_f32(_mm_add_ss(pairs, _mm_movehdup_ps(pairs))))
-        }
+        Sum::sum(self)
+    }
+    #[inline(always)]
+    fn sums<const C: usize>(vectors: [Self; C]) -> [Fused<f32>; C] {
+        sums(vectors, Fused(0.0))
     }
 }

@@ -14,7 +14,7 @@ use forgetting::{Lane, One};
 /// compiler would pair single numbers with their neighbours, which costs more steps than it saves
 /// where each waits for the one before.
 #[derive(Clone, Copy, Debug)]
-pub struct Single<R>(R);
+pub struct Single<R>(pub(super) R);
 
 macro_rules! operator {
     ($($Trait:ident $method:ident: $($register:ident $intrinsic:ident),*;)*) => {$($(

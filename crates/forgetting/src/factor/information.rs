@@ -30,7 +30,7 @@ impl<M: Memory> Factor<M> {
     /// Forgets as `form` says, then [`Factor::add_information`], then θ ← θ + P·fᵀe for the n numbers
     /// of `theta` that belong to each e of `errors`: all of it in one pass over U.
     ///
-    /// `squares` is ‖f‖²; `scratch` holds [`kernel::SCRATCH`] n numbers.
+    /// `squares` is ‖f‖²; `scratch` holds [`kernel::scratch`] numbers.
     ///
     /// # Errors
     /// [`Error::Range`] when P would leave the range of the number type; P is as it was.

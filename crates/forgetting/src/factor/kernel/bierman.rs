@@ -14,67 +14,65 @@
 #![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
 
 use super::layout::BLOCK;
-use super::tile::{block, block_mut, dots, eight, put_eight, rotate, Long, LongMut, PerColumn};
+use super::tile::{
+    beyond, block, block_mut, dots, eight, put_eight, turn_columns, Long, LongMut, PerColumn, Tile,
+    Turn,
+};
 use crate::factor::Measured;
 use crate::vector::Vector;
-use crate::Real;
+use crate::{Eight, Lane, Real};
 
-/// What passes from column to column: s = a − 1, and 1/a.
-#[derive(Clone, Copy)]
-pub struct Chain<T> {
-    s: T,
-    pub inverse_a: T,
+/// What a block becomes: D, which may be below its floor, and the change of U, of which x is the gain
+/// k, v its factor.
+pub struct Pass<E> {
+    pub d: E,
+    pub slope: E,
+    pub v: E,
+    /// after each column
+    pub a: E,
 }
 
-impl<T: Real> Chain<T> {
-    pub const START: Self = Self { s: T::ZERO, inverse_a: T::ONE };
+/// What passes from column to column: s = a − 1, in all lanes.
+#[derive(Clone, Copy)]
+pub struct Chain<E>(E);
 
-    /// Goes through the columns of a block; returns the slope and v of each.
+impl<E> Chain<E> {
+    #[inline(always)]
+    pub fn start<T: Real>() -> Self
+    where
+        E: Eight<T>,
+    {
+        Self(E::splat(T::ZERO))
+    }
+
+    /// Goes through the columns of a block.
     ///
     /// Only the sum s passes from block to block; all else is done for all columns side by side.
     #[inline(always)]
-    pub fn pass(&mut self, d: &mut PerColumn<T>, w: &PerColumn<T>) -> (PerColumn<T>, PerColumn<T>) {
-        let [mut v, mut a, mut product] = [[T::ZERO; BLOCK]; 3];
-        for c in 0..BLOCK {
-            v[c] = d[c] * w[c];
-            product[c] = w[c] * v[c];
-        }
-        let sums = running_sums(&product);
-        for c in 0..BLOCK {
-            a[c] = T::ONE + (self.s + sums[c]);
-        }
-        let (mut a_before, mut inverse_before) = (T::ONE + self.s, self.inverse_a);
-        let mut slope = [T::ZERO; BLOCK];
-        for c in 0..BLOCK {
-            let inverse_a = T::ONE / a[c];
-            slope[c] = -(w[c] * inverse_before);
-            d[c] = (d[c] * (a_before * inverse_a)).max(T::FLOOR);
-            (a_before, inverse_before) = (a[c], inverse_a);
-        }
-        *self = Self { s: self.s + sums[BLOCK - 1], inverse_a: inverse_before };
-        (slope, v)
+    pub fn pass<T: Real>(&mut self, d: E, w: E) -> Pass<E>
+    where
+        E: Eight<T>,
+    {
+        let (v, first) = (d * w, E::splat(T::ONE) + self.0);
+        let sums = (w * v).running_sums();
+        let a = first + sums;
+        let before = a.before(first);
+        let slope = -w / before;
+        let d = (d * before) / a;
+        self.0 = (self.0 + sums).last();
+        Pass { d, slope, v, a }
     }
 
-    /// At the end.
+    /// At the end, with the largest element of D.
     #[inline(always)]
-    pub fn measured(self, d: &[T], forgot: bool) -> Measured<T> {
-        self.with_largest(largest(d), forgot)
+    pub fn measured<T: Real>(self, largest: T, forgot: bool) -> Measured<T>
+    where
+        E: Eight<T>,
+    {
+        let (leverage, one) = (self.0.numbers()[0], T::ONE);
+        let variance = one + leverage;
+        Measured { leverage, variance, inverse_variance: one / variance, largest, forgot }
     }
-
-    /// The same with the largest element of D known.
-    #[inline(always)]
-    pub fn with_largest(self, largest: T, forgot: bool) -> Measured<T> {
-        let Self { s, inverse_a } = self;
-        Measured { leverage: s, variance: T::ONE + s, inverse_variance: inverse_a, largest, forgot }
-    }
-}
-
-/// The sums of the first one, two, … of eight numbers, none of more than three additions.
-#[inline(always)]
-fn running_sums<T: Real>(x: &PerColumn<T>) -> PerColumn<T> {
-    let (ab, cd, ef, gh) = (x[0] + x[1], x[2] + x[3], x[4] + x[5], x[6] + x[7]);
-    let abcd = ab + cd;
-    [x[0], ab, ab + x[2], abcd, abcd + x[4], abcd + ef, abcd + (ef + x[6]), abcd + (ef + gh)]
 }
 
 /// The largest of positive numbers, eight side by side.
@@ -87,13 +85,48 @@ pub fn largest<T: Real>(numbers: &[T]) -> T {
             most[lane] = most[lane].max(eight[lane]);
         }
     }
-    most.iter().chain(rest).fold(T::ZERO, |most, &x| most.max(x))
+    rest.iter().fold(largest_of(&most), |most, &x| most.max(x))
 }
 
-/// The D of block `b`, grown.
+/// The largest of eight numbers: halves beside halves.
 #[inline(always)]
-pub fn grown<T: Real>(diagonal: &[T], b: usize, growth: T) -> PerColumn<T> {
-    eight(diagonal, b, T::FLOOR).map(|d| d * growth)
+pub fn largest_of<T: Real>(eight: &PerColumn<T>) -> T {
+    let [a, b, c, d, e, f, g, h] = *eight;
+    (a.max(e).max(c.max(g))).max(b.max(f).max(d.max(h)))
+}
+
+/// Whether no D is below its floor, given the largest of −D.
+#[inline(always)]
+pub fn above_floor<T: Real, E: Eight<T>>(less_least: E) -> bool {
+    E::all(less_least.at_most(-E::splat(T::FLOOR)))
+}
+
+/// D of block `b` as it was measured, put at the floor where it is below it.
+///
+/// A column of U may be as long as D is small: lifting D alone would add to P whatever the floor is
+/// times the square of that length. So the column becomes √(D/floor) of what it is.
+#[inline(always)]
+pub fn settle<T: Real>(block: &mut [Tile<T>], (diagonal, b): (&mut [T], usize), d: &PerColumn<T>) {
+    let least = d.iter().fold(T::CEILING, |least, &d| least.min(d));
+    if least >= T::FLOOR {
+        put_eight(diagonal, b, d);
+    } else {
+        put_eight(diagonal, b, &lift(block, b, d));
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn lift<T: Real>(block: &mut [Tile<T>], b: usize, d: &PerColumn<T>) -> PerColumn<T> {
+    for (t, tile) in block.iter_mut().enumerate() {
+        for (c, column) in tile.iter_mut().enumerate().filter(|&(c, _)| d[c] < T::FLOOR) {
+            let share = (d[c] / T::FLOOR).sqrt();
+            // of the tile with the diagonal, what is above it
+            let above = b * BLOCK + c - t * T::ROWS;
+            column.as_mut().iter_mut().take(above).for_each(|u| *u *= share);
+        }
+    }
+    d.map(|d| d.max(T::FLOOR))
 }
 
 /// P ← `growth`·P and P⁻¹ ← P⁻¹ + fᵀf; leaves P·fᵀ, with the P between the two, in `k`.
@@ -104,21 +137,23 @@ pub fn scale_and_measure<T: Real, V: Vector<T>, const GROUP: usize>(
     growth: T,
     f: &[T],
     k: &mut [T],
-) -> Chain<T> {
-    let (f, mut k, blocks) = (Long::new(f), LongMut::zeros(k), diagonal.len().div_ceil(BLOCK));
-    let mut chain = Chain::START;
+) -> Chain<V::Eight> {
+    let (f, mut k, blocks) = (Long::new(f), [LongMut::new(k)], diagonal.len().div_ceil(BLOCK));
+    let (mut chain, growth) = (Chain::start(), V::Eight::splat(growth));
     let mut ahead = dots::<T, V, GROUP>(block(columns, 0), &f);
     for b in 0..blocks {
-        let w = ahead;
+        let w = V::Eight::read(&ahead);
         if b + 1 < blocks {
             // needs nothing of this block: the machine does both at once
             ahead = dots::<T, V, GROUP>(block(columns, b + 1), &f);
         }
-        let mut d = grown(diagonal, b, growth);
-        let (slope, v) = chain.pass(&mut d, &w);
-        put_eight(diagonal, b, &d);
-        rotate::<T, V, GROUP>(block_mut(columns, b), &mut k, (&slope, &v));
+        let d = V::Eight::read(&eight(diagonal, b, beyond())) * growth;
+        let Pass { d, slope, v, .. } = chain.pass(d, w);
+        let turn = Turn { slope: &slope.numbers(), factor: &v.numbers() };
+        let block = block_mut(columns, b);
+        turn_columns::<T, V, _, GROUP, 1>((block, b), &mut k, &[turn]);
+        settle(block, (diagonal, b), &d.numbers());
     }
-    k.finish();
+    k.into_iter().for_each(LongMut::finish);
     chain
 }

@@ -58,6 +58,15 @@ pub const fn most(n: usize) -> usize {
     length_of(n, 2 * BLOCK) + if n <= BLOCK { 0 } else { 2 * BLOCK * BLOCK }
 }
 
+/// How many numbers the kernels need to work with, for n parameters and any number type.
+pub const fn scratch(n: usize) -> usize {
+    if n <= FEW {
+        n
+    } else {
+        super::along::each(2) * n.div_ceil(2 * BLOCK) * 2 * BLOCK
+    }
+}
+
 /// The tiles of a block, by their position.
 #[inline(always)]
 pub fn tiles_of<T: Real>(block: usize) -> core::ops::Range<usize> {

@@ -1,8 +1,8 @@
 //! One row of one sample: forgetting in one of the forms of [`Form`], the measurement and the
 //! correction of θ, for any number of targets.
 
-use super::along::{self, Scratch};
-use super::bierman::{self, Chain};
+use super::along::Room;
+use super::bierman::{self, largest};
 use super::layout::FEW;
 use super::long::add_scaled_by;
 use super::small::{Gain, Small};
@@ -14,7 +14,7 @@ use crate::{Kernel, Lane, One, Real};
 pub struct Place<'a, T> {
     pub columns: &'a mut [T],
     pub diagonal: &'a mut [T],
-    /// [`Scratch::EACH`]·n numbers; P·fᵀ, with the P just before the measurement, comes first
+    /// [`scratch`](super::scratch) numbers; P·fᵀ, with the P just before the measurement, comes first
     pub scratch: &'a mut [T],
     /// at least the trace of P
     pub bound: &'a mut T,
@@ -60,9 +60,14 @@ impl<T: Real> Place<'_, T> {
     /// Whether P may grow so; if so, the bound follows.
     #[inline(always)]
     fn make_room(&mut self, growth: T, added: T) -> Option<()> {
-        let bound = *self.bound * growth + added;
-        (bound < T::CEILING).then(|| *self.bound = bound)
+        make_room(self.bound, growth, added)
     }
+}
+
+#[inline(always)]
+fn make_room<T: Real>(bound: &mut T, growth: T, added: T) -> Option<()> {
+    let grown = *bound * growth + added;
+    (grown < T::CEILING).then(|| *bound = grown)
 }
 
 /// For at most ten parameters.
@@ -123,7 +128,7 @@ pub fn take<T: Real, A: One<T>, const N: usize>(
 /// Whether c·fᵀf is to be added: not for λ = 1 or f = 0, nor for more information than the number
 /// type can hold.
 #[inline(always)]
-fn adds<T: Real>(c: T) -> bool {
+pub fn adds<T: Real>(c: T) -> bool {
     c > T::ZERO && c.is_finite()
 }
 
@@ -135,30 +140,42 @@ pub fn many<T: Real, V: Vector<T>, const GROUP: usize>(
     f: &[T],
     squares: T,
 ) -> Option<Measured<T>> {
-    let (chain, forgot) = match form {
+    match form {
         Form::Scale { growth } => {
             place.make_room(growth, T::ZERO)?;
-            (scale::<T, V, GROUP>(place, growth, f), growth > T::ONE)
+            Some(scale::<T, V, GROUP>(place, growth, f))
         }
-        Form::Along { weight, .. } => {
-            let n = f.len();
-            let mut scratch = Scratch::of(place.scratch, n);
-            let information =
-                along::look::<T, V, GROUP>(place.columns, place.diagonal, f, &mut scratch);
-            let c = weight / information;
-            if adds(c) {
-                let t = information / weight;
-                place.make_room(T::ONE, c * squares)?;
-                let mut scratch = Scratch::of(place.scratch, n);
-                let (columns, diagonal) = (&mut *place.columns, &mut *place.diagonal);
-                let chain = along::add_and_measure::<T, V>(columns, diagonal, t, &mut scratch);
-                (chain, true)
-            } else {
-                (scale::<T, V, GROUP>(place, T::ONE, f), false)
-            }
-        }
-    };
-    Some(chain.measured(place.diagonal, forgot))
+        Form::Along { weight, .. } => along::<T, V, GROUP>(place, weight, f, squares),
+    }
+}
+
+/// Forgets along f, unless there is nothing to forget.
+#[inline(always)]
+fn along<T: Real, V: Vector<T>, const GROUP: usize>(
+    place: &mut Place<'_, T>,
+    weight: T,
+    f: &[T],
+    squares: T,
+) -> Option<Measured<T>> {
+    let (n, (full, rest)) = (f.len(), T::chunks(f));
+    let (gain, scratch) = place.scratch.split_at_mut(n.div_ceil(T::ROWS) * T::ROWS);
+    let mut room = Room::<T, 1, 2>::of(scratch, n);
+    for (t, [to]) in room.f.iter_mut().enumerate() {
+        *to = full.get(t).copied().unwrap_or_else(|| T::chunk(rest));
+    }
+    room.look::<V, GROUP>(place.columns, place.diagonal);
+    let information = room.information::<V::Eight, 0>();
+    let c = weight / information;
+    if !adds(c) {
+        return Some(scale::<T, V, GROUP>(place, T::ONE, f));
+    }
+    make_room(place.bound, T::ONE, c * squares)?;
+    let measured = room.add_and_measure::<V::Eight, 0>(information / weight).0;
+    room.carry_out::<V, GROUP>(place.columns, place.diagonal);
+    for (t, to) in T::chunks_mut(gain).0.iter_mut().enumerate() {
+        *to = *room.gain(0, t);
+    }
+    Some(measured)
 }
 
 #[inline(always)]
@@ -166,7 +183,9 @@ fn scale<T: Real, V: Vector<T>, const GROUP: usize>(
     place: &mut Place<'_, T>,
     growth: T,
     f: &[T],
-) -> Chain<T> {
+) -> Measured<T> {
     let k = &mut place.scratch[..f.len()];
-    bierman::scale_and_measure::<T, V, GROUP>(place.columns, place.diagonal, growth, f, k)
+    let (columns, diagonal) = (&mut *place.columns, &mut *place.diagonal);
+    let chain = bierman::scale_and_measure::<T, V, GROUP>(columns, diagonal, growth, f, k);
+    chain.measured(largest(place.diagonal), growth > T::ONE)
 }

@@ -35,6 +35,7 @@ macro_rules! with_few {
 
 mod agee_turner;
 mod along;
+mod arrival;
 mod batch;
 mod bierman;
 #[cfg(feature = "alloc")]
@@ -51,7 +52,8 @@ mod triangular;
 #[cfg(feature = "alloc")]
 pub(crate) use layout::BLOCK;
 pub use layout::{
-    capacity, column, get_column, length, most, place, put_column, set_identity, visit, FEW,
+    capacity, column, get_column, length, most, place, put_column, scratch, set_identity, visit,
+    FEW,
 };
 pub(crate) use measure::{Measure, Place};
 pub(crate) use steps::Steps;
@@ -59,9 +61,6 @@ pub use told::Told;
 
 use super::{Form, Measured};
 use crate::Real;
-
-/// How many numbers for each parameter the kernels need to work with.
-pub(crate) const SCRATCH: usize = along::Scratch::<f64>::EACH;
 
 /// Σ aᵢ bᵢ over the shorter of the two, in 8 (f64) or 16 (f32) partial sums.
 #[inline(always)]

@@ -3,10 +3,12 @@
 
 #![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
 
-use super::batch::{admits, measure_batch, BATCH, BATCH_FROM};
+use super::along;
+use super::arrival::{arrive, correct};
+use super::batch::{self, BATCH};
 use super::layout::FEW;
 use super::long::{add_scaled_by, few_products, products};
-use super::measure::{many as measure_many, take, Place};
+use super::measure::{adds, many as measure_many, take, Place};
 use super::small::Small;
 use super::triangular::leverage_of;
 use super::{bierman::largest, Told};
@@ -119,25 +121,35 @@ fn left_out<T: Real, A: One<T>, const N: usize>(
     Told { error, leverage, largest: largest(&d), forgot: false, used: false, windup: false }
 }
 
-/// For more than ten.
+/// For more than ten: several at a time where that is possible.
+///
+/// No closures hold what is long: they would be functions of their own, without the instructions
+/// that this one may use.
 #[inline(always)]
 fn many<T: Real, V: Vector<T>, const GROUP: usize>(task: &mut Steps<'_, T>) -> usize {
-    let (n, most) = (task.theta.len(), task.told.len().min(task.y.len()));
-    let mut taken = 0;
-    while taken < most {
-        let mut took = 0;
-        if let Form::Scale { growth } = task.form {
-            if n >= BATCH_FROM && most - taken >= BATCH {
-                took = batch::<T, V, GROUP>(task, taken, growth);
+    let (most, mut taken) = (task.told.len().min(task.y.len()), 0);
+    match task.form {
+        Form::Scale { growth } => {
+            while most - taken >= BATCH {
+                taken += match batch::<T, V, GROUP>(task, taken, growth) {
+                    Some(()) => BATCH,
+                    None if single::<T, V, GROUP>(task, taken).is_some() => 1,
+                    None => return taken,
+                };
             }
         }
-        if took == 0 {
-            took = usize::from(single::<T, V, GROUP>(task, taken).is_some());
+        Form::Along { weight, .. } => {
+            while most - taken >= 2 {
+                taken += match two::<T, V, GROUP>(task, taken, weight) {
+                    Some(()) => 2,
+                    None if single::<T, V, GROUP>(task, taken).is_some() => 1,
+                    None => return taken,
+                };
+            }
         }
-        if took == 0 {
-            break;
-        }
-        taken += took;
+    }
+    while taken < most && single::<T, V, GROUP>(task, taken).is_some() {
+        taken += 1;
     }
     taken
 }
@@ -169,28 +181,94 @@ fn single<T: Real, V: Vector<T>, const GROUP: usize>(
     Some(())
 }
 
-/// The samples from `at` on in one sweep over U, if none of them can be refused; how many.
+/// The next samples in one sweep over U, if all of them can be used so.
 #[inline(always)]
 fn batch<T: Real, V: Vector<T>, const GROUP: usize>(
     task: &mut Steps<'_, T>,
     at: usize,
     growth: T,
-) -> usize {
-    let n = task.theta.len();
-    let f = &task.phi[at * n..(at + BATCH) * n];
-    let y = &task.y[at..at + BATCH];
-    if !admits::<T, V>(&mut task.place, growth, f, y, task.theta) {
-        return 0;
+) -> Option<()> {
+    let Steps { place, phi, y, theta, told, thetas, .. } = task;
+    let n = theta.len();
+    let (phi, y) = (&phi[at * n..(at + BATCH) * n], &y[at..at + BATCH]);
+    let bound = (0..BATCH).fold(*place.bound, |bound, _| bound * growth);
+    (bound < T::CEILING).then_some(())?;
+    let mut room = batch::Room::of(place.scratch, n);
+    let arrival = arrive::<T, V, BATCH>(phi, theta, room.f);
+    room.look::<V, GROUP>(place.columns, place.diagonal);
+    let mut shared = [[T::ZERO; BATCH]; BATCH];
+    let measured = [
+        room.scale_and_measure::<V::Eight, 0>(growth, &mut shared[0])?,
+        room.scale_and_measure::<V::Eight, 1>(growth, &mut shared[1])?,
+        room.scale_and_measure::<V::Eight, 2>(growth, &mut shared[2])?,
+        room.scale_and_measure::<V::Eight, 3>(growth, &mut shared[3])?,
+    ];
+    let [mut errors, mut steps] = [[T::ZERO; BATCH]; 2];
+    for l in 0..BATCH {
+        errors[l] = y[l] - arrival.predicted[l];
+        for m in 0..l {
+            errors[l] = (-steps[m]).mul_add(shared[l][m], errors[l]);
+        }
+        steps[l] = errors[l] * measured[l].inverse_variance;
+        accepts(errors[l], arrival.squares[l]).then_some(())?;
     }
-    let measured = measure_batch::<T, V, GROUP>(&mut task.place, growth, f);
-    for (l, (f, measured)) in f.chunks_exact(n).zip(&measured).enumerate() {
-        let error = y[l] - products::<T, V>(f, task.theta).0;
-        let gain = &task.place.scratch[l * n..(l + 1) * n];
-        add_scaled_by::<T, V>(task.theta, error * measured.inverse_variance, gain);
-        task.told[at + l] = Told::used(error, measured);
-        task.keep(at + l);
+    *place.bound = bound;
+    room.carry_out::<V, GROUP>(place.columns, place.diagonal);
+    for l in 0..BATCH {
+        told[at + l] = Told::used(errors[l], &measured[l]);
     }
-    BATCH
+    let thetas = thetas.get_mut(at * n..(at + BATCH) * n).unwrap_or_default();
+    correct::<T, V, BATCH>(theta, &steps, |l, t| &room.k[t][l], thetas);
+    Some(())
+}
+
+/// Two samples that forget along their regressors, in the same way; not where one is to be left
+/// out, or has nothing to forget.
+#[inline(always)]
+fn two<T: Real, V: Vector<T>, const GROUP: usize>(
+    task: &mut Steps<'_, T>,
+    at: usize,
+    weight: T,
+) -> Option<()> {
+    let Steps { place, form, phi, y, theta, told, thetas } = task;
+    let n = theta.len();
+    let (phi, y) = (&phi[at * n..(at + 2) * n], &y[at..at + 2]);
+    let mut room = along::Room::<T, 2, 4>::of(place.scratch, n);
+    let arrival = arrive::<T, V, 2>(phi, theta, room.f);
+    let [first, second] = arrival.squares;
+    (!form.leaves_out(first) && !form.leaves_out(second)).then_some(())?;
+    room.look::<V, GROUP>(place.columns, place.diagonal);
+    let mut bound = *place.bound;
+
+    let information = room.information::<V::Eight, 0>();
+    bound += more(weight, information, first)?;
+    let (measured, _, above) = room.add_and_measure::<V::Eight, 0>(information / weight);
+    let error = y[0] - arrival.predicted[0];
+    let step = error * measured.inverse_variance;
+    (above && accepts(error, first)).then_some(())?;
+
+    let information = room.information::<V::Eight, 1>();
+    bound += more(weight, information, second)?;
+    let (after, shared, above) = room.add_and_measure::<V::Eight, 1>(information / weight);
+    let later = (-step).mul_add(shared, y[1] - arrival.predicted[1]);
+    (above && accepts(later, second) && bound < T::CEILING).then_some(())?;
+
+    *place.bound = bound;
+    room.carry_out::<V, GROUP>(place.columns, place.diagonal);
+    told[at] = Told::used(error, &measured);
+    told[at + 1] = Told::used(later, &after);
+    let steps = [step, later * after.inverse_variance];
+    let thetas = thetas.get_mut(at * n..(at + 2) * n).unwrap_or_default();
+    correct::<T, V, 2>(theta, &steps, |l, t| room.gain(l, t), thetas);
+    Some(())
+}
+
+/// What forgetting along a regressor with this information and ‖φ‖² adds to the trace of P, if it
+/// does anything.
+#[inline(always)]
+fn more<T: Real>(weight: T, information: T, squares: T) -> Option<T> {
+    let c = weight / information;
+    adds(c).then_some(c * squares)
 }
 
 impl<T: Real> Steps<'_, T> {

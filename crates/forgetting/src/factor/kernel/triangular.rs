@@ -122,7 +122,8 @@ impl<T: Real> Kernel<T> for Solve<'_, T> {
         let mut x = LongMut::new(x);
         for b in (0..blocks).rev() {
             let block = block(columns, b);
-            let (solved, factors) = solve_triangle(block, b, x.eight(b));
+            let solved = solve_triangle(block, b, x.eight(b));
+            let factors = solved.map(|x| -x);
             add_columns::<T, V>(block, &mut x, &factors);
             *x.eight(b) = solved;
         }
@@ -137,15 +138,10 @@ fn few_solutions<T: Real, const N: usize>(columns: &[T], x: &mut [T]) {
     }
 }
 
-/// The triangle of a block: the solution there, and the same with the opposite sign.
+/// The solution in the triangle of a block.
 #[inline(always)]
-pub fn solve_triangle<T: Real>(
-    block: &[Tile<T>],
-    b: usize,
-    x: &PerColumn<T>,
-) -> (PerColumn<T>, PerColumn<T>) {
-    let solved = solve(&triangle(block, b), *x);
-    (solved, solved.map(|x| -x))
+pub fn solve_triangle<T: Real>(block: &[Tile<T>], b: usize, x: &PerColumn<T>) -> PerColumn<T> {
+    solve(&triangle(block, b), *x)
 }
 
 #[inline(always)]

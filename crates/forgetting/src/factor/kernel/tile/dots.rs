@@ -21,6 +21,38 @@ pub fn dots<T: Real, V: Vector<T>, const GROUP: usize>(
     sums
 }
 
+/// The same for each of `S` vectors that lie side by side.
+#[inline(always)]
+pub fn dots_beside<T: Real, V: Vector<T>, const GROUP: usize, const S: usize>(
+    block: &[Tile<T>],
+    f: &[[T::Chunk; S]],
+) -> [PerColumn<T>; S] {
+    let mut dots = [[T::ZERO; BLOCK]; S];
+    for s in 0..S {
+        if GROUP >= 8 {
+            dots[s] = V::sums(beside::<T, V, 8, 0, S>(block, f, s));
+        } else {
+            let [a, b, c, d] = V::sums(beside::<T, V, 4, 0, S>(block, f, s));
+            let [e, f, g, h] = V::sums(beside::<T, V, 4, 4, S>(block, f, s));
+            dots[s] = [a, b, c, d, e, f, g, h];
+        }
+    }
+    dots
+}
+
+#[inline(always)]
+fn beside<T: Real, V: Vector<T>, const C: usize, const FIRST: usize, const S: usize>(
+    block: &[Tile<T>],
+    f: &[[T::Chunk; S]],
+    s: usize,
+) -> [V; C] {
+    let mut sums = [V::splat(T::ZERO); C];
+    for (tile, f) in block.iter().zip(f) {
+        add_tile::<T, V, C, FIRST>(tile, &f[s], &mut sums);
+    }
+    sums
+}
+
 #[inline(always)]
 fn of_columns<T: Real, V: Vector<T>, const C: usize, const FIRST: usize>(
     block: &[Tile<T>],

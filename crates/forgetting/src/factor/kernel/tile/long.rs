@@ -41,13 +41,6 @@ impl<'a, T: Real> LongMut<'a, T> {
         Self { full, tail, rest }
     }
 
-    /// `numbers` set to 0.
-    #[inline(always)]
-    pub fn zeros(numbers: &'a mut [T]) -> Self {
-        numbers.fill(T::ZERO);
-        Self::new(numbers)
-    }
-
     /// The first `tiles` chunks, as of [`Long`].
     #[inline(always)]
     pub fn first(&mut self, tiles: usize) -> (&mut [T::Chunk], Option<&mut T::Chunk>) {
@@ -56,14 +49,19 @@ impl<'a, T: Real> LongMut<'a, T> {
         (&mut self.full[..tiles.min(count)], tail)
     }
 
+    /// The chunk beside the tiles of row `t`.
+    #[inline(always)]
+    pub fn chunk(&mut self, t: usize) -> &mut T::Chunk {
+        match self.full.get_mut(t) {
+            Some(chunk) => chunk,
+            None => &mut self.tail,
+        }
+    }
+
     /// The numbers of block `b`.
     #[inline(always)]
     pub fn eight(&mut self, b: usize) -> &mut PerColumn<T> {
-        let chunk = match self.full.get_mut(b * BLOCK / T::ROWS) {
-            Some(chunk) => chunk,
-            None => &mut self.tail,
-        };
-        match chunk.as_mut()[b * BLOCK % T::ROWS..].first_chunk_mut() {
+        match self.chunk(b * BLOCK / T::ROWS).as_mut()[b * BLOCK % T::ROWS..].first_chunk_mut() {
             Some(eight) => eight,
             None => unreachable!("a chunk holds whole blocks"),
         }
@@ -71,7 +69,11 @@ impl<'a, T: Real> LongMut<'a, T> {
 
     #[inline(always)]
     pub fn finish(self) {
-        let length = self.rest.len();
-        self.rest.copy_from_slice(&self.tail.as_ref()[..length]);
+        // one by one: a copy of any length would be a call
+        for (i, &x) in self.tail.as_ref().iter().enumerate() {
+            if i < self.rest.len() {
+                self.rest[i] = x;
+            }
+        }
     }
 }

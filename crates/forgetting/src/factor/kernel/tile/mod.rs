@@ -9,21 +9,17 @@ mod add;
 mod dots;
 mod eliminate;
 mod long;
-mod rotate;
-mod solve_and_dot;
-mod widen_and_rotate;
+mod turns;
 
 pub use add::add_columns;
-pub use dots::dots;
+pub use dots::{dots, dots_beside};
 pub use eliminate::eliminate;
 pub use long::{Long, LongMut};
-pub use rotate::rotate;
-pub use solve_and_dot::solve_and_dot;
-pub use widen_and_rotate::{widen_and_rotate, Slopes};
+pub use turns::{turn_columns, Turn};
 
 use super::layout::{tiles_of, BLOCK};
 use crate::vector::Vector;
-use crate::Real;
+use crate::{copy_some, Real};
 
 /// Eight columns of as many rows as a vector has numbers.
 pub type Tile<T> = [<T as Real>::Chunk; BLOCK];
@@ -64,10 +60,16 @@ pub fn eight<T: Real>(numbers: &[T], b: usize, beyond: T) -> PerColumn<T> {
         Some(eight) => *eight,
         None => {
             let mut eight = [beyond; BLOCK];
-            eight[..numbers.len()].copy_from_slice(numbers);
+            copy_some(&mut eight, numbers);
             eight
         }
     }
+}
+
+/// D of columns that there are none of: with room for rounding above the floor.
+#[inline(always)]
+pub fn beyond<T: Real>() -> T {
+    T::FLOOR * T::from_f64(4.0)
 }
 
 /// Puts them back.
@@ -77,8 +79,11 @@ pub fn put_eight<T: Real>(numbers: &mut [T], b: usize, eight: &PerColumn<T>) {
     match numbers.first_chunk_mut() {
         Some(numbers) => *numbers = *eight,
         None => {
-            let width = numbers.len();
-            numbers.copy_from_slice(&eight[..width]);
+            for c in 0..BLOCK {
+                if c < numbers.len() {
+                    numbers[c] = eight[c];
+                }
+            }
         }
     }
 }
