@@ -12,7 +12,7 @@
 
 #![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
 
-use super::layout::place;
+use super::layout::{place, BLOCK};
 use crate::{Lane, One, Real};
 
 /// U above its diagonal, by columns, and D.
@@ -216,35 +216,14 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
         let mut chain = Chain { v, inverse, s, a, inverse_a, largest, shares: None };
         let within = A::both(less_least.at_most(-floor), a.at_most(A::splat(T::CEILING)));
         if !A::all(within) {
-            chain.shares = Some(self.lift(w, &chain));
-            chain.divide(w);
+            // inline it costs large ones their registers, and apart from it small ones theirs
+            (self.d, *w, chain) = if N <= BLOCK {
+                lift::<T, A, N>(self.d, *w, chain)
+            } else {
+                lift_apart::<T, A, N>(self.d, *w, chain)
+            };
         }
         chain
-    }
-
-    /// D, just measured, at the floor where it is below; returns √(D/floor) of these columns, and
-    /// 1 for the others.
-    ///
-    /// A column of U may be as long as D is small: lifting D alone would add to P whatever the
-    /// floor is times the square of that length.
-    #[inline(always)]
-    fn lift<T: Real>(&mut self, w: &[A; N], chain: &Chain<A, N>) -> [A; N]
-    where
-        A: Lane<T>,
-    {
-        let (one, floor) = (A::splat(T::ONE), A::splat(T::FLOOR));
-        let (mut shares, mut inverse_a) = ([one; N], chain.inverse_a);
-        for c in (0..N).rev() {
-            // from D as it was before: what is below the floor may be too small for a number
-            let before = chain.v[c] / w[c];
-            let share = (before / floor) * (inverse_a / chain.inverse[c]);
-            // where w is 0, D is below the floor by no more than rounding, and `before` is none
-            let lifted = A::both(self.d[c].less_than(floor), share.less_than(one));
-            shares[c] = A::select(lifted, share.sqrt(), one);
-            self.d[c] = self.d[c].max(floor);
-            inverse_a = chain.inverse[c];
-        }
-        shares
     }
 
     /// The columns of which D was lifted add to P what they added before.
@@ -264,22 +243,50 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
     }
 }
 
-impl<A: Copy, const N: usize> Chain<A, N> {
-    /// Where w k could be too large for a number, w is divided before: `inverse` becomes 1.
-    ///
-    /// Without this the reciprocals come last, when the products wait for them.
-    #[inline(always)]
-    fn divide<T: Real>(&mut self, w: &mut [A; N])
-    where
-        A: Lane<T>,
-    {
-        let small = self.a.at_most(A::splat(T::CEILING));
-        for c in 0..N {
-            w[c] = A::select(small, w[c], w[c] * self.inverse[c]);
-            self.inverse[c] = A::select(small, self.inverse[c], A::splat(T::ONE));
-        }
+/// D, just measured, at the floor where it is below, and what to multiply its columns with; and w
+/// divided where w k could be too large for a number. Else the reciprocals come last, when the products
+/// wait for them.
+///
+/// A column of U may be as long as D is small: lifting D alone would add to P whatever the floor
+/// is times the square of that length. So the column becomes √(D/floor) of what it is.
+///
+/// It takes and returns values, so that they may stay in registers elsewhere.
+#[inline(always)]
+fn lift<T: Real, A: Lane<T>, const N: usize>(
+    mut d: [A; N],
+    mut w: [A; N],
+    mut chain: Chain<A, N>,
+) -> ([A; N], [A; N], Chain<A, N>) {
+    let (one, floor) = (A::splat(T::ONE), A::splat(T::FLOOR));
+    let small = chain.a.at_most(A::splat(T::CEILING));
+    let (mut shares, mut inverse_a) = ([one; N], chain.inverse_a);
+    for c in (0..N).rev() {
+        let inverse = chain.inverse[c];
+        // from D as it was before: what is below the floor may be too small for a number
+        let share = (chain.v[c] / w[c] / floor) * (inverse_a / inverse);
+        // where w is 0, D is below the floor by no more than rounding, and there is no share
+        let lifted = A::both(d[c].less_than(floor), share.less_than(one));
+        shares[c] = A::select(lifted, share.sqrt(), one);
+        d[c] = d[c].max(floor);
+        w[c] = A::select(small, w[c], w[c] * inverse);
+        chain.inverse[c] = A::select(small, inverse, one);
+        inverse_a = inverse;
     }
+    chain.shares = Some(shares);
+    (d, w, chain)
+}
 
+#[cold]
+#[inline(never)]
+fn lift_apart<T: Real, A: Lane<T>, const N: usize>(
+    d: [A; N],
+    w: [A; N],
+    chain: Chain<A, N>,
+) -> ([A; N], [A; N], Chain<A, N>) {
+    lift(d, w, chain)
+}
+
+impl<A: Copy, const N: usize> Chain<A, N> {
     #[inline(always)]
     fn gain(self, k: [A; N]) -> Gain<A, N> {
         let Self { s, a, inverse_a, largest, .. } = self;
