@@ -22,8 +22,8 @@ impl<M: Memory> Factor<M> {
     /// Elements of D that would fall below [`Real::FLOOR`] stay there.
     pub fn hold_trace(&mut self, trace: M::Real) {
         let before = self.trace();
-        for d in self.diagonal.as_mut() {
-            *d = (*d / before * trace).max(M::Real::FLOOR);
+        for j in 0..self.parameters() {
+            self.put_diagonal(j, self.diagonal.as_ref()[j] / before * trace);
         }
         self.tighten();
     }
@@ -53,12 +53,12 @@ impl<M: Memory> Factor<M> {
     ///
     /// Call [`Factor::reserve`] with the largest squared scale first.
     pub fn scale_each(&mut self, scale: &[M::Real]) {
-        for (j, (&s, d)) in scale.iter().zip(self.diagonal.as_mut()).enumerate() {
-            *d = (*d * s * s).max(M::Real::FLOOR);
+        for (j, &s) in scale.iter().enumerate() {
             for (i, &t) in scale[..j].iter().enumerate() {
                 let u = &mut self.columns.as_mut()[kernel::place::<M::Real>(i, j)];
                 *u = *u * t / s;
             }
+            self.put_diagonal(j, self.diagonal.as_ref()[j] * s * s);
         }
     }
 

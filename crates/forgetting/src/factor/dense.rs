@@ -46,10 +46,10 @@ impl<M: Memory> Factor<M> {
             return Err(Error::Range { parameter: name, value: trace.to_f64(), limit });
         }
         for j in 0..n {
-            self.diagonal.as_mut()[j] = covariance[j * n + j].max(M::Real::FLOOR);
             for i in 0..j {
                 self.columns.as_mut()[kernel::place::<M::Real>(i, j)] = covariance[i * n + j];
             }
+            self.put_diagonal(j, covariance[j * n + j]);
         }
         self.trace_bound = trace;
         Ok(())
@@ -80,9 +80,8 @@ impl<M: Memory> Factor<M> {
             return Err(Error::Range { parameter: name, value: trace.to_f64(), limit });
         }
         for i in 0..n {
-            let d = M::Real::ONE / information[i * n + i];
-            self.diagonal.as_mut()[i] = d.max(M::Real::FLOOR);
             kernel::put_column(self.columns.as_mut(), i, &information[i * n..]);
+            self.put_diagonal(i, M::Real::ONE / information[i * n + i]);
         }
         self.trace_bound = trace;
         Ok(())

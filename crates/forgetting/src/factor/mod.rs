@@ -186,6 +186,27 @@ impl<M: Memory> Factor<M> {
         }
     }
 
+    /// D_j ← `d`, or the floor where that is below it.
+    ///
+    /// A column of U may be as long as D is small. At the floor it becomes √(d/floor) of what it was,
+    /// so that it adds to P no more than it did: lifting D alone would add the floor times the
+    /// square of its length.
+    pub(crate) fn put_diagonal(&mut self, j: usize, d: M::Real) {
+        let floor = M::Real::FLOOR;
+        self.diagonal.as_mut()[j] = d.max(floor);
+        if d < floor {
+            let share = (d / floor).sqrt();
+            for i in 0..j {
+                self.columns.as_mut()[kernel::place::<M::Real>(i, j)] *= share;
+            }
+        }
+    }
+
+    /// By how much the trace may grow after room was reserved for P/λ.
+    pub(crate) fn room(&self, lambda: M::Real) -> M::Real {
+        (M::Real::ONE - lambda) * self.trace_bound
+    }
+
     /// Replaces the trace's bound by the trace itself.
     pub(crate) fn tighten(&mut self) {
         self.trace_bound = self.trace();

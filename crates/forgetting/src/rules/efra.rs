@@ -149,9 +149,10 @@ impl<M: Memory> Forgetting<M> for Efra<M> {
         let mut rank = 0;
         if total > M::Real::ZERO {
             step.factor.reserve(M::Real::ONE, total)?;
+            let mut room = total;
             for (i, &weight) in added.as_ref().iter().enumerate() {
                 if weight > M::Real::ZERO {
-                    spectrum.widen(i, weight, step.factor, step.work);
+                    spectrum.widen(i, (weight, &mut room), step.factor, step.work);
                     rank += 1;
                 }
             }

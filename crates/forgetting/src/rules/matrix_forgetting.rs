@@ -124,14 +124,20 @@ impl<M: Memory> MatrixForgetting<M> {
         (1..self.power).fold(base, |product, _| product * base)
     }
 
-    /// Forgets along eigenvector i.
+    /// Forgets along eigenvector i; P may grow by `room`.
     #[inline]
-    fn forget_along(&self, spectrum: &mut Spectrum<M>, step: &mut Step<'_, '_, M>, i: usize) {
+    fn forget_along(
+        &self,
+        spectrum: &mut Spectrum<M>,
+        step: &mut Step<'_, '_, M>,
+        i: usize,
+        room: &mut M::Real,
+    ) {
         let r = spectrum.information()[i];
         let lost = (M::Real::ONE - step.forgetting_factor) * self.share(r);
         if lost > M::Real::ZERO {
             let weight = lost / ((M::Real::ONE - lost) * r);
-            spectrum.widen(i, weight, step.factor, step.work);
+            spectrum.widen(i, (weight, room), step.factor, step.work);
         } else if lost < M::Real::ZERO {
             let gained = (-lost * r).min(M::Real::CEILING);
             spectrum.narrow(i, gained, step.factor, step.work);
@@ -197,8 +203,9 @@ impl<M: Memory> Forgetting<M> for MatrixForgetting<M> {
         }
         spectrum.follow(step.factor);
         if forgets {
+            let mut room = step.factor.room(lambda);
             for i in 0..n {
-                self.forget_along(spectrum, &mut step, i);
+                self.forget_along(spectrum, &mut step, i, &mut room);
             }
         }
         spectrum.learn_rows(step.sample);

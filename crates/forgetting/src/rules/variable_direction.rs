@@ -77,9 +77,15 @@ impl<M: Memory> VariableDirection<M> {
     }
 
     /// Marks the excited eigenvectors with 1 in `work.second`, and forgets along those of
-    /// uneven clusters; returns the number of excited ones and of those dealt with.
+    /// uneven clusters, where P may grow by `room`; returns the number of excited ones and of
+    /// those dealt with.
     #[inline]
-    fn find(&self, spectrum: &mut Spectrum<M>, step: &mut Step<'_, '_, M>) -> (usize, usize) {
+    fn find(
+        &self,
+        spectrum: &mut Spectrum<M>,
+        step: &mut Step<'_, '_, M>,
+        room: &mut M::Real,
+    ) -> (usize, usize) {
         let n = step.factor.parameters();
         let growth = M::Real::ONE / step.forgetting_factor;
         let rows = step.sample.rows();
@@ -97,7 +103,7 @@ impl<M: Memory> VariableDirection<M> {
             if uneven && found > 0 {
                 for i in start..start + found {
                     let weight = (growth - M::Real::ONE) * spectrum.variance(cluster.clone(), i);
-                    spectrum.widen(i, weight, step.factor, step.work);
+                    spectrum.widen(i, (weight, room), step.factor, step.work);
                 }
                 spectrum.settle(cluster.clone(), found, growth);
                 done += found;
@@ -111,12 +117,14 @@ impl<M: Memory> VariableDirection<M> {
     }
 }
 
-/// Forgets along the eigenvectors marked in `work.second`, each alone in its cluster.
+/// Forgets along the eigenvectors marked in `work.second`, each alone in its cluster; P may grow
+/// by `room`.
 #[inline]
 fn forget_marked<M: Memory>(
     spectrum: &mut Spectrum<M>,
     step: &mut Step<'_, '_, M>,
     rest_is_small: bool,
+    room: &mut M::Real,
 ) -> Result<(), Error> {
     let lambda = step.forgetting_factor;
     let lost = M::Real::ONE - lambda;
@@ -130,7 +138,8 @@ fn forget_marked<M: Memory>(
             spectrum.narrow(i, lost * information, step.factor, step.work);
         } else if marked {
             if !rest_is_small {
-                spectrum.widen(i, lost / (lambda * information), step.factor, step.work);
+                let weight = lost / (lambda * information);
+                spectrum.widen(i, (weight, room), step.factor, step.work);
             }
             spectrum.set_information(i, lambda * information);
         }
@@ -176,12 +185,13 @@ impl<M: Memory> Forgetting<M> for VariableDirection<M> {
         }
         spectrum.follow(step.factor);
         if lambda < M::Real::ONE {
+            let mut room = step.factor.room(lambda);
             let done;
-            (rank, done) = self.find(spectrum, &mut step);
+            (rank, done) = self.find(spectrum, &mut step, &mut room);
             let rest = step.factor.parameters() - rank;
             let rest_is_small =
                 done == 0 && 3 * rest < 2 * rank && lambda >= M::Real::from_f64(0.5);
-            forget_marked(spectrum, &mut step, rest_is_small)?;
+            forget_marked(spectrum, &mut step, rest_is_small, &mut room)?;
         }
         spectrum.learn_rows(step.sample);
         Ok(Forgotten::rank(rank))

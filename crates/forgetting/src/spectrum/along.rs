@@ -7,9 +7,19 @@ use crate::{Factor, Memory, Real, Work};
 impl<M: Memory> Spectrum<M> {
     /// P ← P + `weight`·v_i v_iᵀ with `weight` ≥ 0; uses `work.gain`.
     ///
-    /// Call [`Factor::reserve`] first. The spectrum stays as it is.
+    /// Call [`Factor::reserve`] first: `room` is what is left of it. What r_i is known to, next to a
+    /// much larger one, may be nothing, and 1/r_i then be more than all of P. The spectrum stays
+    /// as it is.
     #[inline(never)]
-    pub fn widen(&self, i: usize, weight: M::Real, factor: &mut Factor<M>, work: &mut Work<M>) {
+    pub fn widen(
+        &self,
+        i: usize,
+        (weight, room): (M::Real, &mut M::Real),
+        factor: &mut Factor<M>,
+        work: &mut Work<M>,
+    ) {
+        let weight = weight.min(*room);
+        *room -= weight;
         let direction = work.gain.as_mut();
         direction.copy_from_slice(self.vector(i));
         factor.add_covariance(direction, weight);

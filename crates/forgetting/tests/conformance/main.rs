@@ -12,3 +12,4 @@ mod record;
 mod silence;
 mod subjects;
 mod tampering;
+mod trace;

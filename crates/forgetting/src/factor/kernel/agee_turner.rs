@@ -7,16 +7,25 @@
 //!
 //! In t = 1/c the divisions of a block of columns do not wait for each other.
 //!
+//! Where D grows much, u is to become much shorter, and u + s / (t D'_j) x is the difference of two
+//! large numbers: of it stays their rounding, which D' makes large in P. The same column as a
+//! sum of which neither part is larger than P allows, with the x of before:
+//!
+//! ```text
+//!     u ← (D_j / D'_j) u + s / (t D'_j) x
+//! ```
+//!
 //! W. S. Agee and R. H. Turner, *Triangular decomposition of a positive definite matrix plus a
 //! symmetric dyad with applications to Kalman filtering*, 1972; for t, P. E. Gill, G. H. Golub,
 //! W. Murray and M. A. Saunders, *Methods for modifying matrix factorizations*, Mathematics of
-//! Computation 28, 1974, method C1.
+//! Computation 28, 1974, method C1; for the sum, R. Fletcher and M. J. D. Powell, *On the
+//! modification of LDLᵀ factorizations*, Mathematics of Computation 28, 1974.
 
 #![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
 
 use super::layout::BLOCK;
 use super::small::Small;
-use super::tile::{block_mut, eight, eliminate, put_eight, triangle, LongMut};
+use super::tile::{block_mut, eight, eliminate, put_eight, triangle, LongMut, Tile};
 use crate::vector::Vector;
 use crate::{Kernel, Real};
 
@@ -46,23 +55,39 @@ impl<T: Real> Kernel<T> for AgeeTurner<'_, T> {
         for b in (0..n.div_ceil(BLOCK)).rev() {
             let block = block_mut(self.columns, b);
             let mut d = eight(self.diagonal, b, T::FLOOR);
-            let (slope, less_s);
-            (t, slope, less_s) = scalars(&triangle(block, b), &mut d, x.eight(b), t);
+            let scalars;
+            (t, scalars) = pass(&triangle(block, b), &mut d, x.eight(b), t);
             put_eight(self.diagonal, b, &d);
-            eliminate::<T, V, GROUP>(block, &mut x, (&slope, &less_s));
+            let Scalars { slope, less_s, kept } = &scalars;
+            // from here on more than a quarter of the digits of u would be lost
+            if kept.iter().any(|&kept| kept < T::EPSILON.sqrt()) {
+                add_up(block, b, &mut x, &scalars);
+            } else {
+                eliminate::<T, V, GROUP>(block, &mut x, (slope, less_s));
+            }
         }
     }
 }
 
-/// t after a block, and the slopes and −s of its columns.
+/// What to do with each column.
+struct Scalars<T, const C: usize> {
+    /// s / (t D')
+    slope: [T; C],
+    /// −s
+    less_s: [T; C],
+    /// D / D'
+    kept: [T; C],
+}
+
+/// t after a block, and what to do with its columns.
 #[inline(always)]
-fn scalars<T: Real, const C: usize>(
+fn pass<T: Real, const C: usize>(
     u: &[[T; C]; C],
     d: &mut [T; C],
     x: &[T; C],
     mut t: T,
-) -> (T, [T; C], [T; C]) {
-    let [mut slope, mut less_s, mut before] = [[T::ZERO; C]; 3];
+) -> (T, Scalars<T, C>) {
+    let [mut slope, mut less_s, mut kept, mut before] = [[T::ZERO; C]; 4];
     let mut rest = *x;
     for c in (0..C).rev() {
         less_s[c] = -rest[c];
@@ -76,10 +101,35 @@ fn scalars<T: Real, const C: usize>(
     }
     for c in 0..C {
         let scaled = less_s[c] / before[c];
-        d[c] = scaled.mul_add(less_s[c], d[c]);
-        slope[c] = -(scaled / d[c]);
+        let grown = scaled.mul_add(less_s[c], d[c]);
+        slope[c] = -(scaled / grown);
+        kept[c] = d[c] / grown;
+        d[c] = grown;
     }
-    (t, slope, less_s)
+    (t, Scalars { slope, less_s, kept })
+}
+
+/// [`eliminate`] for block `b` with each column as a sum, number by number.
+#[cold]
+fn add_up<T: Real>(
+    block: &mut [Tile<T>],
+    b: usize,
+    x: &mut LongMut<'_, T>,
+    scalars: &Scalars<T, BLOCK>,
+) {
+    let Scalars { slope, less_s, kept } = scalars;
+    let (full, tail) = x.first(block.len());
+    for (k, (tile, x)) in block.iter_mut().zip(full.iter_mut().chain(tail)).enumerate() {
+        for c in (0..BLOCK).rev() {
+            // of the tile with the diagonal, what is above it
+            let above = b * BLOCK + c - k * T::ROWS;
+            for (u, x) in tile[c].as_mut().iter_mut().zip(x.as_mut()).take(above) {
+                let (before, rest) = (*u, *x);
+                *x = less_s[c].mul_add(before, rest);
+                *u = slope[c].mul_add(rest, kept[c] * before);
+            }
+        }
+    }
 }
 
 /// For at most eight parameters.
@@ -90,13 +140,50 @@ fn few<T: Real, const N: usize>(task: &mut AgeeTurner<'_, T>) {
         return;
     };
     let mut small = Small::<T, N>::load(columns, d);
-    let (_, slope, less_s) = scalars(&small.u, &mut small.d, x, T::ONE / *c);
+    let (_, Scalars { slope, less_s, kept }) = pass(&small.u, &mut small.d, x, T::ONE / *c);
     for c in (0..N).rev() {
         for i in 0..c {
-            let before = small.u[c][i];
-            x[i] = less_s[c].mul_add(before, x[i]);
-            small.u[c][i] = slope[c].mul_add(x[i], before);
+            let (before, rest) = (small.u[c][i], x[i]);
+            x[i] = less_s[c].mul_add(before, rest);
+            small.u[c][i] = slope[c].mul_add(rest, kept[c] * before);
         }
     }
     small.store(columns, d);
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Dynamic, Factor, Real};
+    use alloc::vec;
+
+    /// The trace of P grows by that of what is added, also where D of a long column grows to
+    /// many times what it was.
+    fn adds_what_it_is_given<T: Real>(n: usize, long: f64) {
+        let memory = Dynamic::<T>::new(n, 1, 1).unwrap();
+        let (one, long) = (T::ONE, T::from_f64(long));
+        for j in 0..n {
+            let mut factor = Factor::scalar(memory, one).unwrap();
+            // column j is `long`, and D_j so small that it weighs as much as any other
+            factor.diagonal.as_mut()[j] = one / (long * long);
+            for i in 0..j {
+                let sign = if i % 2 == 0 { one } else { -one };
+                factor.columns.as_mut()[crate::factor::kernel::place::<T>(i, j)] = sign * long;
+            }
+            let before = factor.trace();
+            let step = T::from_f64(1e-3);
+            factor.add_diagonal(&vec![step; n], &mut vec![T::ZERO; n]);
+            let expected = before + step * T::from_f64(n as f64);
+            let error = (factor.trace() / expected - one).abs();
+            assert!(error < T::EPSILON * T::from_f64(100.0), "{n} {j}: {error:?}");
+        }
+    }
+
+    #[test]
+    fn a_long_column_adds_no_rounding() {
+        for n in [2, 3, 8, 9, 12, 16, 17, 40] {
+            adds_what_it_is_given::<f64>(n, 1e60);
+            adds_what_it_is_given::<f64>(n, 1e3);
+            adds_what_it_is_given::<f32>(n, 1e8);
+        }
+    }
 }

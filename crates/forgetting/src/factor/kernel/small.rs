@@ -12,7 +12,7 @@
 
 #![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
 
-use super::layout::place;
+use super::layout::{place, BLOCK};
 use crate::{Lane, One, Real};
 
 /// U above its diagonal, by columns, and D.
@@ -73,12 +73,14 @@ pub struct Along<A, const N: usize> {
 /// What passes through the columns in Bierman's update.
 struct Chain<A, const N: usize> {
     v: [A; N],
-    /// 1/a before each column
+    /// 1/a before each column, unless w is divided by it
     inverse: [A; N],
     s: A,
     a: A,
     inverse_a: A,
     largest: A,
+    /// what to multiply each column of U with at the end, if not all with 1
+    shares: Option<[A; N]>,
 }
 
 impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
@@ -91,8 +93,8 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
         for d in &mut self.d {
             *d = *d * growth;
         }
-        let w = transposed(&self.u, f);
-        let chain = self.chain(&w);
+        let mut w = transposed(&self.u, f);
+        let chain = self.chain(&mut w);
         self.u.last_pass(&self.d);
         let mut k = [A::splat(T::ZERO); N];
         for c in 0..N {
@@ -105,6 +107,7 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
             }
             k[c] = chain.v[c];
         }
+        self.narrow(&chain);
         chain.gain(k)
     }
 
@@ -167,7 +170,7 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
             w[c] = slope[c].mul_add(p, before);
             p = z[c].mul_add(before, p);
         }
-        let chain = self.chain(&w);
+        let chain = self.chain(&mut w);
         self.u.last_pass(&self.d);
         let (mut k, mut x) = ([zero; N], [zero; N]);
         for c in 0..N {
@@ -181,17 +184,20 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
             }
             (x[c], k[c]) = (z[c], chain.v[c]);
         }
+        self.narrow(&chain);
         chain.gain(k)
     }
 
-    /// D after the measurement of a regressor with w = Uᵀf, and what goes with it.
+    /// D after the measurement of a regressor with w = Uᵀf, and what goes with it; the changes of U
+    /// are then (−`w` k)·`inverse`.
     #[inline(always)]
-    fn chain<T: Real>(&mut self, w: &[A; N]) -> Chain<A, N>
+    fn chain<T: Real>(&mut self, w: &mut [A; N]) -> Chain<A, N>
     where
         A: Lane<T>,
     {
-        let (one, zero) = (A::splat(T::ONE), A::splat(T::ZERO));
-        let (mut v, mut inverse, mut largest, mut s) = ([zero; N], [one; N], zero, zero);
+        let (one, zero, floor) = (A::splat(T::ONE), A::splat(T::ZERO), A::splat(T::FLOOR));
+        let (mut v, mut inverse, mut s) = ([zero; N], [one; N], zero);
+        let (mut largest, mut less_least) = (floor, -floor);
         let (mut a, mut inverse_a) = (one, one);
         for c in 0..N {
             let d = self.d[c];
@@ -199,15 +205,85 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
             let next = w[c].mul_add(v[c], a);
             inverse[c] = inverse_a;
             inverse_a = one / next;
-            self.d[c] = (d * (a * inverse_a)).max(A::splat(T::FLOOR));
+            self.d[c] = d * (a * inverse_a);
             largest = largest.max(self.d[c]);
+            less_least = less_least.max(-self.d[c]);
             a = next;
         }
         for c in (0..N).rev() {
             s = w[c].mul_add(v[c], s);
         }
-        Chain { v, inverse, s, a, inverse_a, largest }
+        let mut chain = Chain { v, inverse, s, a, inverse_a, largest, shares: None };
+        let within = A::both(less_least.at_most(-floor), a.at_most(A::splat(T::CEILING)));
+        if !A::all(within) {
+            // inline it costs large ones their registers, and apart from it small ones theirs
+            (self.d, *w, chain) = if N <= BLOCK {
+                lift::<T, A, N>(self.d, *w, chain)
+            } else {
+                lift_apart::<T, A, N>(self.d, *w, chain)
+            };
+        }
+        chain
     }
+
+    /// The columns of which D was lifted add to P what they added before.
+    #[inline(always)]
+    fn narrow<T: Real>(&mut self, chain: &Chain<A, N>)
+    where
+        A: Lane<T>,
+    {
+        let Some(shares) = &chain.shares else {
+            return;
+        };
+        for c in 0..N {
+            for i in 0..c {
+                self.u.set(c, i, self.u.get(c, i) * shares[c]);
+            }
+        }
+    }
+}
+
+/// D, just measured, at the floor where it is below, and what to multiply its columns with; and w
+/// divided where w k could be too large for a number. Else the reciprocals come last, when the products
+/// wait for them.
+///
+/// A column of U may be as long as D is small: lifting D alone would add to P whatever the floor
+/// is times the square of that length. So the column becomes √(D/floor) of what it is.
+///
+/// It takes and returns values, so that they may stay in registers elsewhere.
+#[inline(always)]
+fn lift<T: Real, A: Lane<T>, const N: usize>(
+    mut d: [A; N],
+    mut w: [A; N],
+    mut chain: Chain<A, N>,
+) -> ([A; N], [A; N], Chain<A, N>) {
+    let (one, floor) = (A::splat(T::ONE), A::splat(T::FLOOR));
+    let small = chain.a.at_most(A::splat(T::CEILING));
+    let (mut shares, mut inverse_a) = ([one; N], chain.inverse_a);
+    for c in (0..N).rev() {
+        let inverse = chain.inverse[c];
+        // from D as it was before: what is below the floor may be too small for a number
+        let share = (chain.v[c] / w[c] / floor) * (inverse_a / inverse);
+        // where w is 0, D is below the floor by no more than rounding, and there is no share
+        let lifted = A::both(d[c].less_than(floor), share.less_than(one));
+        shares[c] = A::select(lifted, share.sqrt(), one);
+        d[c] = d[c].max(floor);
+        w[c] = A::select(small, w[c], w[c] * inverse);
+        chain.inverse[c] = A::select(small, inverse, one);
+        inverse_a = inverse;
+    }
+    chain.shares = Some(shares);
+    (d, w, chain)
+}
+
+#[cold]
+#[inline(never)]
+fn lift_apart<T: Real, A: Lane<T>, const N: usize>(
+    d: [A; N],
+    w: [A; N],
+    chain: Chain<A, N>,
+) -> ([A; N], [A; N], Chain<A, N>) {
+    lift(d, w, chain)
 }
 
 impl<A: Copy, const N: usize> Chain<A, N> {
@@ -272,4 +348,52 @@ where
         }
     }
     w
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::factor::kernel::place;
+    use crate::{Dynamic, Factor, Real};
+
+    /// P with these columns above the diagonal and this D.
+    fn factor<const N: usize>(columns: &[&[f64]], diagonal: [f64; N]) -> Factor<Dynamic<f64>> {
+        let mut factor = Factor::scalar(Dynamic::new(N, 1, 1).unwrap(), 1.0).unwrap();
+        factor.diagonal.as_mut().copy_from_slice(&diagonal);
+        for (j, column) in columns.iter().enumerate() {
+            for (i, &u) in column.iter().enumerate() {
+                factor.columns.as_mut()[place::<f64>(i, j)] = u;
+            }
+        }
+        factor
+    }
+
+    #[test]
+    fn a_measurement_adds_nothing_where_d_is_at_its_floor() {
+        let diagonal = [1.4058341593762096e-138, 0.008440921232922291, 4.440109184476592e-149];
+        let columns: [&[f64]; 3] = [&[], &[0.0], &[4.3556142965880123e40, 1.7335898988465585e73]];
+        let mut p = factor(&columns, diagonal);
+        p.add_information(&[1.5369708694062383e67, 7.561495892025367e19, 0.0], &mut [0.0; 3]);
+        // in exact arithmetic; the last D is then 1e-178, and its column 9e87 long
+        assert!((p.trace() / 0.008440921232922258 - 1.0).abs() < 1e-12, "{p:?}");
+        assert!(p.is_sound());
+    }
+
+    #[test]
+    fn d_at_its_floor_may_stay_where_nothing_is_measured() {
+        let floor = f64::FLOOR;
+        for size in [3.0, 7.0, 1e10, 3e60] {
+            let mut p = factor(&[&[], &[2.0], &[-2.0, 3.0]], [1.0, floor, floor]);
+            p.add_information(&[size, 0.0, 0.0], &mut [0.0; 3]);
+            assert!(p.is_sound() && p.trace() < 1.0, "{p:?}");
+        }
+    }
+
+    #[test]
+    fn products_within_a_measurement_are_finite() {
+        let mut p = factor(&[&[], &[0.0]], [f64::CEILING / 4.0; 2]);
+        for row in [[1e-75, 1e75], [1e75, 0.0], [0.0, 1e75]] {
+            p.add_information(&row, &mut [0.0; 2]);
+            assert!(p.is_sound(), "{p:?}");
+        }
+    }
 }

@@ -1,0 +1,95 @@
+//! The bound of P's trace, from which overflow is foreseen, bounds it after every sample.
+
+use crate::subjects::{subjects, update, Subject};
+use forgetting::factor::Factor;
+use forgetting::state::Visitor;
+use forgetting::{Dynamic, Noise, Real};
+use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
+
+/// 0, ordinary numbers, and numbers of every size of which the square is accepted.
+fn number() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        2 => Just(0.0),
+        3 => -10.0..10.0,
+        6 => (-1.0..1.0f64, any::<bool>()).prop_map(|(size, positive)| {
+            if positive { 10f64.powf(75.0 * size) } else { -10f64.powf(75.0 * size) }
+        }),
+    ]
+}
+
+#[derive(Clone, Debug)]
+struct Trial {
+    /// n and p
+    sizes: (usize, usize),
+    /// the logarithm of the first variance, in parts of that of the largest
+    variance: f64,
+    forgetting_factor: f64,
+    /// as many numbers as the largest sizes need
+    regressors: Vec<Vec<f64>>,
+}
+
+fn trial() -> impl Strategy<Value = Trial> {
+    let numbers = prop::collection::vec(number(), 30);
+    let factor = prop_oneof![0.5..1.0f64, 1e-12..0.5f64, Just(1e-30)];
+    let regressors = prop::collection::vec(numbers, 1..40);
+    let variance = prop_oneof![-0.1..0.1f64, -0.95..0.95f64];
+    (2..=10usize, 1..=3usize, variance, factor, regressors).prop_map(
+        |(n, p, variance, forgetting_factor, regressors)| Trial {
+            sizes: (n, p),
+            variance,
+            forgetting_factor,
+            regressors,
+        },
+    )
+}
+
+/// The last number of a factor's state.
+struct Bound<T>(T);
+
+impl<T: Real> Visitor<T> for Bound<T> {
+    fn reals(&mut self, values: &mut [T]) {
+        self.0 = values.last().copied().unwrap_or(self.0);
+    }
+
+    fn whole(&mut self, _: &mut u64) {}
+}
+
+fn check_bound<T: Real>(factor: &Factor<Dynamic<T>>, of: &str) {
+    let mut bound = Bound(T::ZERO);
+    factor.clone().visit(&mut bound);
+    let (bound, trace) = (bound.0.to_f64(), factor.trace().to_f64());
+    assert!(factor.is_sound(), "{of}: {factor:?}");
+    // half of it, for rounding
+    assert!(bound >= 0.5 * trace, "{of}: a trace of {trace:e} is not below {bound:e}: {factor:?}");
+}
+
+fn check<T: Real>(subject: &Subject, trial: &Trial) {
+    let ((n, p), ceiling) = (trial.sizes, T::CEILING.to_f64());
+    let variance = ceiling.powf(trial.variance);
+    let estimator = subject.estimator::<T>((n, p, 1), trial.forgetting_factor, variance);
+    let Some(mut estimator) = estimator else {
+        return;
+    };
+    // of as many sizes in any number type
+    let scale = ceiling.log10() / f64::CEILING.log10();
+    let real = |x: &f64| T::from_f64(x.signum() * x.abs().powf(scale));
+    for (k, regressors) in trial.regressors.iter().enumerate() {
+        let phi: Vec<T> = regressors[..p * n].iter().map(real).collect();
+        // a sample may be refused, but not break anything
+        let _ = update(&mut estimator, &phi, &vec![T::ONE; p], Noise::Unit);
+        check_bound(estimator.factor(), &format!("{subject:?}, sample {k}"));
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() })]
+
+    #[test]
+    fn the_trace_stays_below_its_bound(trial in trial()) {
+        for subject in subjects() {
+            check::<f64>(&subject, &trial);
+            check::<f32>(&subject, &trial);
+        }
+    }
+}
