@@ -23,6 +23,7 @@ use crate::{Factor, Memory, Real};
 use residual::Residual;
 use weakest::Weakest;
 
+mod note;
 mod residual;
 mod weakest;
 
@@ -101,26 +102,27 @@ impl<M: Memory> Monitor<M> {
     /// A watch that starts at this P; `bounded` if the rule bounds it without excitation.
     pub fn new(factor: &Factor<M>, bounded: bool) -> Self {
         let memory = factor.memory();
+        let mut variances = memory.vector();
+        factor.variances(variances.as_mut());
         let mut monitor = Self {
-            weakest: Weakest::new(factor, bounded),
+            weakest: Weakest::new(factor, variances.as_ref(), bounded),
             residual: Residual::new(),
             length: M::Real::ZERO,
             in_block: 0,
             samples: 0,
             informed: 0,
-            variances: memory.vector(),
+            variances,
             silence: memory.vector(),
         };
-        monitor.start_block(factor);
+        monitor.start_block();
         monitor
     }
 
-    fn start_block(&mut self, factor: &Factor<M>) {
-        let n = factor.parameters();
+    fn start_block(&mut self) {
+        let n = self.variances.as_ref().len();
         let half = M::Real::from_f64(0.5);
         self.length = M::Real::from_f64((2 * n).max(10) as f64).max(half * self.residual.weight);
         self.in_block = 0;
-        factor.variances(self.variances.as_mut());
     }
 
     /// Whether the weakest direction has wound up.
@@ -163,16 +165,12 @@ impl<M: Memory> Monitor<M> {
     #[inline]
     fn note_excitation(&mut self, regressors: &[M::Real]) -> usize {
         let variances = self.variances.as_ref();
-        let (share, mut rows) = (M::Real::from_f64(SHARE), 0);
+        let least = M::Real::from_f64(SHARE) / self.length;
+        let mut rows = 0;
         for row in regressors.chunks_exact(variances.len()) {
             // a sample ages once, whatever its rows
             let age = if rows == 0 { M::Real::ONE } else { M::Real::ZERO };
-            self.weakest.note(row);
-            let parameters = self.silence.as_mut().iter_mut().zip(variances);
-            for (&f, (silence, &variance)) in row.iter().zip(parameters) {
-                let excited = f * f * (variance * self.length) >= share;
-                *silence = if excited { M::Real::ZERO } else { *silence + age };
-            }
+            self.weakest.note(row, variances, self.silence.as_mut(), (least, age));
             rows += 1;
         }
         rows
@@ -181,10 +179,11 @@ impl<M: Memory> Monitor<M> {
     /// The end of a block.
     #[cold]
     fn turn(&mut self, factor: &Factor<M>) {
-        if self.weakest.turn(factor, self.samples) {
+        factor.variances(self.variances.as_mut());
+        if self.weakest.turn(factor, self.variances.as_ref(), self.samples) {
             self.informed = self.samples;
         }
-        self.start_block(factor);
+        self.start_block();
     }
 
     /// What the watch has seen.

@@ -181,8 +181,15 @@ impl<M: Memory> Factor<M> {
 
     /// The diagonal of P, written to `variances` (n elements), O(n²).
     pub fn variances(&self, variances: &mut [M::Real]) {
-        for (i, variance) in variances.iter_mut().enumerate().take(self.parameters()) {
-            *variance = self.element(i, i);
+        for (k, &d) in self.diagonal.as_ref().iter().enumerate().take(variances.len()) {
+            let (above, rest) = variances.split_at_mut(k);
+            let pieces = above.chunks_mut(M::Real::ROWS);
+            for (piece, column) in pieces.zip(kernel::column(self.columns.as_ref(), k)) {
+                for (variance, &u) in piece.iter_mut().zip(column) {
+                    *variance += u * d * u;
+                }
+            }
+            rest[0] = d;
         }
     }
 

@@ -32,9 +32,10 @@ impl<T: Real> Residual<T> {
         let inverse = T::ONE / spread;
         let innovation = errors[0] * inverse.sqrt();
         let square = average(squared_error, errors.len()) * inverse;
-        self.weight = lambda.mul_add(self.weight, T::ONE);
-        self.squares = lambda.mul_add(self.squares, square);
-        self.products = lambda.mul_add(self.products, innovation * self.previous);
+        // outside of the kernels a product and a sum are faster than both in one
+        self.weight = lambda * self.weight + T::ONE;
+        self.squares = lambda * self.squares + square;
+        self.products = lambda * self.products + innovation * self.previous;
         self.previous = innovation;
     }
 

@@ -1,7 +1,8 @@
 //! The direction that is known least, in units of what each parameter was known by at its best.
 
+use super::note::Note;
 use super::{FACTOR, RECOVERY, SHARE};
-use crate::factor::kernel::{add_scaled, dot};
+use crate::factor::kernel::dot;
 use crate::state::{is_finite, State, Visitor};
 use crate::{Factor, Memory, Real};
 
@@ -30,8 +31,8 @@ pub(super) struct Weakest<M: Memory> {
 }
 
 impl<M: Memory> Weakest<M> {
-    /// Of this P; `bounded` if the rule bounds it without excitation.
-    pub fn new(factor: &Factor<M>, bounded: bool) -> Self {
+    /// Of this P with these `variances`; `bounded` if the rule bounds it without excitation.
+    pub fn new(factor: &Factor<M>, variances: &[M::Real], bounded: bool) -> Self {
         let (memory, zero) = (factor.memory(), M::Real::ZERO);
         let mut weakest = Self {
             bounded,
@@ -45,11 +46,11 @@ impl<M: Memory> Weakest<M> {
             information: [zero; 2],
             told: memory.vector(),
         };
-        factor.variances(weakest.least.as_mut());
-        for (x, &least) in weakest.axis.as_mut().iter_mut().zip(weakest.least.as_ref()) {
-            *x = least.sqrt();
+        weakest.least.as_mut().copy_from_slice(variances);
+        for (x, &variance) in weakest.axis.as_mut().iter_mut().zip(variances) {
+            *x = variance.sqrt();
         }
-        weakest.look(factor, 0);
+        weakest.look(factor, variances, 0);
         weakest.reference = weakest.variance;
         weakest
     }
@@ -85,19 +86,25 @@ impl<M: Memory> Weakest<M> {
         (share * excess).max(share).min(recovery)
     }
 
-    /// Takes note of one row.
+    /// Takes note of one row, here and in the `silence` of each parameter; see [`Note`].
     #[inline]
-    pub fn note(&mut self, row: &[M::Real]) {
-        let along = dot(row, self.axis.as_ref());
+    pub fn note(
+        &mut self,
+        row: &[M::Real],
+        variances: &[M::Real],
+        silence: &mut [M::Real],
+        (least, age): (M::Real, M::Real),
+    ) {
+        let (axis, told) = (self.axis.as_ref(), self.told.as_mut());
+        let along = Note { row, axis, told, variances, silence, least, age }.take();
         self.information[0] += along * along;
-        add_scaled(self.told.as_mut(), along, row);
     }
 
     /// The end of a block, after so many samples; returns whether w was informed in it.
-    pub fn turn(&mut self, factor: &Factor<M>, samples: u64) -> bool {
+    pub fn turn(&mut self, factor: &Factor<M>, variances: &[M::Real], samples: u64) -> bool {
         let (before, needed) = (self.variance, self.needed());
         let along = self.information[0];
-        let same = self.look(factor, samples);
+        let same = self.look(factor, variances, samples);
         let (last, informed) = if same && along > M::Real::ZERO {
             // Σ (φ̃ w)² of the new w is at least this (Cauchy and Schwarz): a trickle along the old
             // one may be none along the new one, with its larger variance
@@ -119,10 +126,9 @@ impl<M: Memory> Weakest<M> {
     }
 
     /// Looks for w again; says whether it is still about the same. O(n²).
-    fn look(&mut self, factor: &Factor<M>, samples: u64) -> bool {
+    fn look(&mut self, factor: &Factor<M>, variances: &[M::Real], samples: u64) -> bool {
         let (before, direction) = (self.before.as_mut(), self.direction.as_mut());
-        factor.variances(before);
-        for (least, &now) in self.least.as_mut().iter_mut().zip(before.iter()) {
+        for (least, &now) in self.least.as_mut().iter_mut().zip(variances) {
             *least = least.min(now).max(M::Real::FLOOR);
         }
         before.copy_from_slice(self.axis.as_ref());
