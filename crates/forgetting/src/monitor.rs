@@ -18,13 +18,17 @@
 //! winds up becomes it, whichever units the parameters have. A block is N = max(10, 2n, half the
 //! memory) samples, so that what costs O(n²) is spread over as many samples.
 
+use crate::factor::kernel::Told;
 use crate::state::{is_finite, State, Visitor};
 use crate::{Factor, Memory, Real};
+use note::Note;
 use residual::Residual;
+use silence::Silence;
 use weakest::Weakest;
 
 mod note;
 mod residual;
+mod silence;
 mod weakest;
 
 /// Growth of the variance of a silent direction that counts as windup.
@@ -55,6 +59,8 @@ pub struct Monitor<M: Memory> {
 /// What the watch is shown of a sample that was used.
 #[derive(Clone, Copy, Debug)]
 pub struct Seen<'a, T> {
+    /// p
+    pub rows: usize,
     /// φ̄, n numbers a row
     pub regressors: &'a [T],
     /// ē, one number a row and target
@@ -65,6 +71,28 @@ pub struct Seen<'a, T> {
     pub leverage: T,
     /// the λ used
     pub forgetting_factor: T,
+}
+
+impl<'a, T: Real> Seen<'a, T> {
+    /// What is shown of samples of one row and one target, of n numbers `phi` each.
+    #[inline]
+    pub(crate) fn of(
+        lambda: T,
+        n: usize,
+        phi: &'a [T],
+        told: &'a [Told<T>],
+    ) -> impl Clone + ExactSizeIterator<Item = Option<Self>> + DoubleEndedIterator {
+        told.iter().enumerate().map(move |(k, told)| {
+            told.used.then(|| Seen {
+                rows: 1,
+                regressors: &phi[k * n..(k + 1) * n],
+                errors: core::slice::from_ref(&told.error),
+                squared_error: told.error * told.error,
+                leverage: told.leverage,
+                forgetting_factor: lambda,
+            })
+        })
+    }
 }
 
 /// What the watch has seen.
@@ -135,45 +163,37 @@ impl<M: Memory> Monitor<M> {
     /// last of them.
     #[inline]
     pub fn room(&self, samples: usize) -> usize {
-        let length = self.length.to_f64();
-        let left = libm::ceil(length) - self.in_block as f64;
-        if left >= samples as f64 {
-            samples
-        } else {
-            (left as usize).max(1)
+        let (length, before) = (self.length.to_f64(), self.in_block as f64);
+        if before + samples as f64 <= length {
+            return samples;
         }
+        let left = libm::ceil(length) - before;
+        samples.min((left as usize).max(1))
     }
 
-    /// Takes note of a sample, none if it was left out, and of P after it.
+    /// Takes note of samples, none for one that was left out, and of P after the last of them;
+    /// they fit the [room](Self::room). Gives how many of them, from the first on, left P wound up
+    /// as it was known before the last one.
     #[inline]
-    pub fn watch(&mut self, factor: &Factor<M>, seen: Option<Seen<'_, M::Real>>) {
-        self.samples += 1;
-        match seen {
-            Some(seen) => {
-                let rows = self.note_excitation(seen.regressors);
-                self.residual.note(&seen, rows);
-            }
-            None => self.silence.as_mut().iter_mut().for_each(|silence| *silence += M::Real::ONE),
-        }
-        self.in_block += 1;
+    pub fn watch<'s>(
+        &mut self,
+        factor: &Factor<M>,
+        samples: impl Clone + ExactSizeIterator<Item = Option<Seen<'s, M::Real>>> + DoubleEndedIterator,
+    ) -> usize {
+        let count = samples.len() as u64;
+        let silence = Silence {
+            variances: self.variances.as_ref(),
+            least: M::Real::from_f64(SHARE) / self.length,
+            since: self.silence.as_mut(),
+        };
+        let (residual, gauge) = (&mut self.residual, self.weakest.gauge());
+        let wound_up = M::Real::compute(Note { samples, residual, gauge, silence });
+        self.samples += count;
+        self.in_block += count;
         if M::Real::from_f64(self.in_block as f64) >= self.length {
             self.turn(factor);
         }
-    }
-
-    /// Returns the number of rows.
-    #[inline]
-    fn note_excitation(&mut self, regressors: &[M::Real]) -> usize {
-        let variances = self.variances.as_ref();
-        let least = M::Real::from_f64(SHARE) / self.length;
-        let mut rows = 0;
-        for row in regressors.chunks_exact(variances.len()) {
-            // a sample ages once, whatever its rows
-            let age = if rows == 0 { M::Real::ONE } else { M::Real::ZERO };
-            self.weakest.note(row, variances, self.silence.as_mut(), (least, age));
-            rows += 1;
-        }
-        rows
+        wound_up
     }
 
     /// The end of a block.

@@ -9,13 +9,16 @@ mod covariance;
 pub(crate) mod dense;
 mod form;
 mod information;
+#[macro_use]
 pub mod kernel;
+mod variances;
 
 pub use form::{DeadZone, Form};
 pub use information::Measured;
 
 use crate::{Error, Memory, Real};
 use core::cmp::Ordering;
+use variances::Variances;
 
 /// P = U D Uᵀ, n x n and positive definite.
 #[derive(Clone, Debug)]
@@ -181,16 +184,8 @@ impl<M: Memory> Factor<M> {
 
     /// The diagonal of P, written to `variances` (n elements), O(n²).
     pub fn variances(&self, variances: &mut [M::Real]) {
-        for (k, &d) in self.diagonal.as_ref().iter().enumerate().take(variances.len()) {
-            let (above, rest) = variances.split_at_mut(k);
-            let pieces = above.chunks_mut(M::Real::ROWS);
-            for (piece, column) in pieces.zip(kernel::column(self.columns.as_ref(), k)) {
-                for (variance, &u) in piece.iter_mut().zip(column) {
-                    *variance += u * d * u;
-                }
-            }
-            rest[0] = d;
-        }
+        let (columns, diagonal) = (self.columns.as_ref(), self.diagonal.as_ref());
+        M::Real::compute(Variances { columns, diagonal, variances });
     }
 
     /// Replaces the trace's bound by the trace itself.

@@ -1,79 +1,138 @@
-//! One row of a sample, as the watch takes note of it: one pass of each vector.
+//! Samples, as the watch takes note of them: all that come between two looks at P in one go.
 
+use super::residual::Residual;
+use super::silence::Silence;
+use super::Seen;
+use crate::factor::kernel::FEW;
 use crate::vector::Vector;
 use crate::{Kernel, Real};
 
-/// So many parameters and less are not worth a kernel.
-const FEW: usize = 8;
+/// Takes note of samples, none where one was left out; gives how many of them, from the first on,
+/// left P wound up.
+pub(super) struct Note<'a, T, I> {
+    pub samples: I,
+    pub residual: &'a mut Residual<T>,
+    pub gauge: Gauge<'a, T>,
+    pub silence: Silence<'a, T>,
+}
 
-/// Adds (φ̃ w) φ̄ to `told` and ages each parameter that is not excited; gives φ̃ w.
-pub(super) struct Note<'a, T> {
-    /// φ̄
-    pub row: &'a [T],
+/// What the weakest direction is told, and when that is enough.
+pub(super) struct Gauge<'a, T> {
+    /// σ²
+    pub variance: T,
+    /// the share that w must be told of to end windup: 0 where there is none
+    pub needed: T,
+    /// Σ (φ̃ w)² in this block and in the one before
+    pub information: &'a mut [T; 2],
     /// S w
     pub axis: &'a [T],
+    /// Σ (φ̃ w) φ̄ in this block
     pub told: &'a mut [T],
-    /// P_ii
-    pub variances: &'a [T],
-    pub silence: &'a mut [T],
-    /// φ̄_i² P_ii from which on parameter i is excited
-    pub least: T,
-    /// what is added to the silence of the others
-    pub age: T,
 }
 
-impl<T: Real> Note<'_, T> {
-    /// Does it.
-    #[inline]
-    pub fn take(self) -> T {
-        if self.row.len() > FEW {
-            return T::compute(self);
-        }
-        let Self { row, axis, told, variances, silence, least, age } = self;
-        let along = row.iter().zip(axis).fold(T::ZERO, |sum, (&f, &x)| sum + f * x);
-        for (told, &f) in told.iter_mut().zip(row) {
-            *told += along * f;
-        }
-        grow_old((row, variances), silence, least, age);
-        along
-    }
-}
-
-impl<T: Real> Kernel<T> for Note<'_, T> {
-    type Output = T;
+impl<'s, T, I> Kernel<T> for Note<'_, T, I>
+where
+    T: Real,
+    I: Clone + ExactSizeIterator<Item = Option<Seen<'s, T>>> + DoubleEndedIterator,
+{
+    type Output = usize;
 
     #[inline(always)]
     fn size(&self) -> usize {
-        self.row.len()
+        self.gauge.axis.len()
     }
 
     #[inline(always)]
-    fn run<V: Vector<T>, const GROUP: usize>(self) -> T {
-        let Self { row, axis, told, variances, silence, least, age } = self;
-        let ((f, f_rest), (x, x_rest)) = (T::chunks(row), T::chunks(axis));
-        let mut lanes = V::splat(T::ZERO);
-        for (f, x) in f.iter().zip(x) {
-            lanes = V::load(f).mul_add(V::load(x), lanes);
+    fn run<V: Vector<T>, const GROUP: usize>(self) -> usize {
+        let n = self.size();
+        let Self { samples, residual, gauge, silence } = self;
+        silence.note::<V, I>(&samples);
+        // wide vectors are for many: without this they would be compiled for few, too
+        if GROUP < 8 && n <= FEW {
+            with_few!(n, few::<T, V>(gauge, residual, samples)).unwrap_or(0)
+        } else {
+            gauge.note::<V>(residual, samples)
         }
-        let along = f_rest.iter().zip(x_rest).fold(lanes.sum(), |sum, (&f, &x)| f.mul_add(x, sum));
-        let (told, told_rest) = T::chunks_mut(told);
-        let c = V::splat(along);
-        for (told, f) in told.iter_mut().zip(f) {
-            c.mul_add(V::load(f), V::load(told)).store(told);
-        }
-        for (told, &f) in told_rest.iter_mut().zip(f_rest) {
-            *told = along.mul_add(f, *told);
-        }
-        grow_old((row, variances), silence, least, age);
-        along
     }
 }
 
-/// Ages the parameters that are not excited.
+/// For at most ten parameters: what changes stays in registers, and constant bounds unroll.
 #[inline(always)]
-fn grow_old<T: Real>((row, variances): (&[T], &[T]), silence: &mut [T], least: T, age: T) {
-    for ((silence, &variance), &f) in silence.iter_mut().zip(variances).zip(row) {
-        let excited = f * f * variance >= least;
-        *silence = if excited { T::ZERO } else { *silence + age };
+fn few<'s, T: Real, V: Vector<T>, const N: usize>(
+    gauge: Gauge<'_, T>,
+    residual: &mut Residual<T>,
+    samples: impl Iterator<Item = Option<Seen<'s, T>>>,
+) -> Option<usize> {
+    let (axis, told) = (gauge.axis.first_chunk::<N>()?, gauge.told.first_chunk_mut::<N>()?);
+    let (axis, mut now) = (*axis, *told);
+    let wound_up = Gauge { axis: &axis, told: &mut now, ..gauge }.note::<V>(residual, samples);
+    *told = now;
+    Some(wound_up)
+}
+
+impl<T: Real> Gauge<'_, T> {
+    /// Takes note of all samples, one after the other, here and in the `residual`.
+    #[inline(always)]
+    fn note<'s, V: Vector<T>>(
+        self,
+        residual: &mut Residual<T>,
+        samples: impl Iterator<Item = Option<Seen<'s, T>>>,
+    ) -> usize {
+        let Self { variance, needed, information: [now, before], axis, told } = self;
+        let (mut noise, mut sum, mut wound_up) = (*residual, *now, 0);
+        for seen in samples {
+            if let Some(seen) = seen {
+                sum += note_rows::<T, V>(&seen, axis, told);
+                noise.note(&seen);
+            }
+            // what w is told only grows: once it is enough it stays so
+            wound_up += usize::from(!((sum + *before) * variance >= needed));
+        }
+        (*residual, *now) = (noise, sum);
+        wound_up
+    }
+}
+
+/// Adds (φ̃ w) φ̄ of each row of a sample to `told`; gives Σ (φ̃ w)².
+#[inline(always)]
+fn note_rows<T: Real, V: Vector<T>>(seen: &Seen<'_, T>, axis: &[T], told: &mut [T]) -> T {
+    let (n, mut sum) = (axis.len(), T::ZERO);
+    for k in 0..seen.rows {
+        let row = &seen.regressors[k * n..(k + 1) * n];
+        let along = dot::<T, V>(row, axis);
+        add_scaled_by::<T, V>(told, along, row);
+        sum = along.mul_add(along, sum);
+    }
+    sum
+}
+
+/// Σ aᵢ bᵢ of two that are equally long.
+#[inline(always)]
+fn dot<T: Real, V: Vector<T>>(a: &[T], b: &[T]) -> T {
+    let ((a, a_rest), (b, b_rest)) = (T::chunks(a), T::chunks(b));
+    let mut sum = T::ZERO;
+    if !a.is_empty() {
+        let mut lanes = V::splat(T::ZERO);
+        for (a, b) in a.iter().zip(b) {
+            lanes = V::load(a).mul_add(V::load(b), lanes);
+        }
+        sum = lanes.sum();
+    }
+    for (&a, &b) in a_rest.iter().zip(b_rest) {
+        sum = a.mul_add(b, sum);
+    }
+    sum
+}
+
+/// `y` += c·`x`, equally long.
+#[inline(always)]
+fn add_scaled_by<T: Real, V: Vector<T>>(y: &mut [T], c: T, x: &[T]) {
+    let ((y, y_rest), (x, x_rest)) = (T::chunks_mut(&mut y[..x.len()]), T::chunks(x));
+    let lanes = V::splat(c);
+    for (y, x) in y.iter_mut().zip(x) {
+        lanes.mul_add(V::load(x), V::load(y)).store(y);
+    }
+    for (y, &x) in y_rest.iter_mut().zip(x_rest) {
+        *y = c.mul_add(x, *y);
     }
 }

@@ -1,6 +1,6 @@
 //! The direction that is known least, in units of what each parameter was known by at its best.
 
-use super::note::Note;
+use super::note::Gauge;
 use super::{FACTOR, RECOVERY, SHARE};
 use crate::factor::kernel::dot;
 use crate::state::{is_finite, State, Visitor};
@@ -58,9 +58,13 @@ impl<M: Memory> Weakest<M> {
     /// Whether it has wound up.
     #[inline]
     pub fn windup(&self) -> bool {
-        !self.bounded
-            && self.variance > M::Real::from_f64(FACTOR) * self.reference
-            && !self.is_informed()
+        self.has_grown() && !self.is_informed()
+    }
+
+    /// Whether its variance has, and is not bounded.
+    #[inline]
+    fn has_grown(&self) -> bool {
+        !self.bounded && self.variance > M::Real::from_f64(FACTOR) * self.reference
     }
 
     /// Whether it is told enough now.
@@ -86,18 +90,16 @@ impl<M: Memory> Weakest<M> {
         (share * excess).max(share).min(recovery)
     }
 
-    /// Takes note of one row, here and in the `silence` of each parameter; see [`Note`].
+    /// For taking note of samples.
     #[inline]
-    pub fn note(
-        &mut self,
-        row: &[M::Real],
-        variances: &[M::Real],
-        silence: &mut [M::Real],
-        (least, age): (M::Real, M::Real),
-    ) {
-        let (axis, told) = (self.axis.as_ref(), self.told.as_mut());
-        let along = Note { row, axis, told, variances, silence, least, age }.take();
-        self.information[0] += along * along;
+    pub fn gauge(&mut self) -> Gauge<'_, M::Real> {
+        Gauge {
+            variance: self.variance,
+            needed: if self.has_grown() { self.needed() } else { M::Real::ZERO },
+            information: &mut self.information,
+            axis: self.axis.as_ref(),
+            told: self.told.as_mut(),
+        }
     }
 
     /// The end of a block, after so many samples; returns whether w was informed in it.
@@ -143,7 +145,7 @@ impl<M: Memory> Weakest<M> {
         let fits = variance <= M::Real::CEILING;
         self.variance = if fits { variance } else { M::Real::CEILING };
         direction.copy_from_slice(axis);
-        normalize(direction);
+        normalize(direction, |x| dot(x, x));
         self.spread = factor.leverage(direction);
         overlap * overlap > M::Real::from_f64(0.8)
     }
@@ -185,28 +187,29 @@ fn turn_axis<M: Memory>(
     // a little of every axis keeps the iteration from missing a direction for ever
     let nudge = M::Real::EPSILON.sqrt();
     for (i, (u, (&x, &least))) in work.iter_mut().zip(axis.iter().zip(least)).enumerate() {
-        let (s, up) = (least.sqrt(), (samples >> (i % 32)) & 1 == 0);
-        *u = (x / s + if up { nudge } else { -nudge }) / s;
+        let up = (samples >> (i % 32)) & 1 == 0;
+        let s = least.sqrt();
+        *u = (x + nudge * if up { s } else { -s }) / least;
     }
     factor.multiply(work);
-    for (y, &least) in work.iter_mut().zip(least) {
-        *y /= least.sqrt();
-    }
-    if normalize(work) {
-        for (x, (&w, &least)) in axis.iter_mut().zip(work.iter().zip(least)) {
-            *x = w * least.sqrt();
-        }
+    let squares = |x: &[M::Real]| {
+        x.iter().zip(least).fold(M::Real::ZERO, |sum, (&x, &least)| sum + x * x / least)
+    };
+    if normalize(work, squares) {
+        axis.copy_from_slice(work);
     }
 }
 
-/// x ← x / ‖x‖, if that has a value; says whether it has.
-fn normalize<T: Real>(x: &mut [T]) -> bool {
+/// Makes x of length 1, if it has one; says whether it has.
+fn normalize<T: Real>(x: &mut [T], squared_length: impl Fn(&[T]) -> T) -> bool {
     let largest = x.iter().fold(T::ZERO, |largest, x| largest.max(x.abs()));
-    if !(largest > T::ZERO && largest.is_finite()) {
+    let inverse = T::ONE / largest;
+    if !(inverse > T::ZERO && inverse.is_finite()) {
         return false;
     }
-    x.iter_mut().for_each(|x| *x /= largest);
-    let length = dot(x, x).sqrt();
-    x.iter_mut().for_each(|x| *x /= length);
+    // first so that no square overflows
+    x.iter_mut().for_each(|x| *x *= inverse);
+    let inverse = T::ONE / squared_length(x).sqrt();
+    x.iter_mut().for_each(|x| *x *= inverse);
     true
 }
