@@ -45,24 +45,27 @@ where
     #[inline(always)]
     fn run<V: Vector<T>, const GROUP: usize>(self) -> usize {
         let n = self.size();
-        let Self { samples, residual, gauge, silence } = self;
-        silence.note::<V, I>(&samples);
         // wide vectors are for many: without this they would be compiled for few, too
         if GROUP < 8 && n <= FEW {
-            with_few!(n, few::<T, V>(gauge, residual, samples)).unwrap_or(0)
+            with_few!(n, few::<T, V, I>(self)).unwrap_or(0)
         } else {
-            gauge.note::<V>(residual, samples)
+            self.silence.note::<V, I>(&self.samples);
+            self.gauge.note::<V>(self.residual, self.samples)
         }
     }
 }
 
 /// For at most ten parameters: what changes stays in registers, and constant bounds unroll.
 #[inline(always)]
-fn few<'s, T: Real, V: Vector<T>, const N: usize>(
-    gauge: Gauge<'_, T>,
-    residual: &mut Residual<T>,
-    samples: impl Iterator<Item = Option<Seen<'s, T>>>,
-) -> Option<usize> {
+fn few<'s, T, V, I, const N: usize>(task: Note<'_, T, I>) -> Option<usize>
+where
+    T: Real,
+    V: Vector<T>,
+    I: Clone + ExactSizeIterator<Item = Option<Seen<'s, T>>> + DoubleEndedIterator,
+{
+    let Note { samples, residual, gauge, silence: Silence { variances, least, since } } = task;
+    let (variances, since) = (variances.first_chunk::<N>()?, since.first_chunk_mut::<N>()?);
+    Silence { variances, least, since }.note::<V, I>(&samples);
     let (axis, told) = (gauge.axis.first_chunk::<N>()?, gauge.told.first_chunk_mut::<N>()?);
     let (axis, mut now) = (*axis, *told);
     let wound_up = Gauge { axis: &axis, told: &mut now, ..gauge }.note::<V>(residual, samples);
