@@ -216,16 +216,11 @@ where
     #[inline]
     fn show(&mut self, lambda: M::Real, phi: &[M::Real], told: &mut [Told<M::Real>]) {
         let Some(monitor) = &mut self.monitor else { return };
-        for (phi, told) in phi.chunks_exact(self.factor.parameters()).zip(told) {
-            let seen = Seen {
-                regressors: phi,
-                errors: core::slice::from_ref(&told.error),
-                squared_error: told.error * told.error,
-                leverage: told.leverage,
-                forgetting_factor: lambda,
-            };
-            monitor.watch(&self.factor, told.used.then_some(seen));
-            told.windup = monitor.windup();
+        let seen = Seen::of(lambda, self.factor.parameters(), phi, told);
+        let wound_up = monitor.watch(&self.factor, seen);
+        told[..wound_up].iter_mut().for_each(|told| told.windup = true);
+        if let Some(last) = told.last_mut() {
+            last.windup = monitor.windup();
         }
     }
 

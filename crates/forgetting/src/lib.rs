@@ -29,6 +29,7 @@ mod estimator;
 mod evidence;
 #[cfg(feature = "alloc")]
 mod excitation;
+#[macro_use]
 pub mod factor;
 #[cfg(feature = "alloc")]
 pub mod fleet;

@@ -18,12 +18,17 @@
 //! winds up becomes it, whichever units the parameters have. A block is N = max(10, 2n, half the
 //! memory) samples, so that what costs O(n²) is spread over as many samples.
 
+use crate::factor::kernel::Told;
 use crate::state::{is_finite, State, Visitor};
 use crate::{Factor, Memory, Real};
+use note::Note;
 use residual::Residual;
+use silence::Silence;
 use weakest::Weakest;
 
+mod note;
 mod residual;
+mod silence;
 mod weakest;
 
 /// Growth of the variance of a silent direction that counts as windup.
@@ -54,6 +59,8 @@ pub struct Monitor<M: Memory> {
 /// What the watch is shown of a sample that was used.
 #[derive(Clone, Copy, Debug)]
 pub struct Seen<'a, T> {
+    /// p
+    pub rows: usize,
     /// φ̄, n numbers a row
     pub regressors: &'a [T],
     /// ē, one number a row and target
@@ -64,6 +71,28 @@ pub struct Seen<'a, T> {
     pub leverage: T,
     /// the λ used
     pub forgetting_factor: T,
+}
+
+impl<'a, T: Real> Seen<'a, T> {
+    /// What is shown of samples of one row and one target, of n numbers `phi` each.
+    #[inline]
+    pub(crate) fn of(
+        lambda: T,
+        n: usize,
+        phi: &'a [T],
+        told: &'a [Told<T>],
+    ) -> impl Clone + ExactSizeIterator<Item = Option<Self>> + DoubleEndedIterator {
+        told.iter().enumerate().map(move |(k, told)| {
+            told.used.then(|| Seen {
+                rows: 1,
+                regressors: &phi[k * n..(k + 1) * n],
+                errors: core::slice::from_ref(&told.error),
+                squared_error: told.error * told.error,
+                leverage: told.leverage,
+                forgetting_factor: lambda,
+            })
+        })
+    }
 }
 
 /// What the watch has seen.
@@ -101,26 +130,27 @@ impl<M: Memory> Monitor<M> {
     /// A watch that starts at this P; `bounded` if the rule bounds it without excitation.
     pub fn new(factor: &Factor<M>, bounded: bool) -> Self {
         let memory = factor.memory();
+        let mut variances = memory.vector();
+        factor.variances(variances.as_mut());
         let mut monitor = Self {
-            weakest: Weakest::new(factor, bounded),
+            weakest: Weakest::new(factor, variances.as_ref(), bounded),
             residual: Residual::new(),
             length: M::Real::ZERO,
             in_block: 0,
             samples: 0,
             informed: 0,
-            variances: memory.vector(),
+            variances,
             silence: memory.vector(),
         };
-        monitor.start_block(factor);
+        monitor.start_block();
         monitor
     }
 
-    fn start_block(&mut self, factor: &Factor<M>) {
-        let n = factor.parameters();
+    fn start_block(&mut self) {
+        let n = self.variances.as_ref().len();
         let half = M::Real::from_f64(0.5);
         self.length = M::Real::from_f64((2 * n).max(10) as f64).max(half * self.residual.weight);
         self.in_block = 0;
-        factor.variances(self.variances.as_mut());
     }
 
     /// Whether the weakest direction has wound up.
@@ -133,58 +163,47 @@ impl<M: Memory> Monitor<M> {
     /// last of them.
     #[inline]
     pub fn room(&self, samples: usize) -> usize {
-        let length = self.length.to_f64();
-        let left = libm::ceil(length) - self.in_block as f64;
-        if left >= samples as f64 {
-            samples
-        } else {
-            (left as usize).max(1)
+        let (length, before) = (self.length.to_f64(), self.in_block as f64);
+        if before + samples as f64 <= length {
+            return samples;
         }
+        let left = libm::ceil(length) - before;
+        samples.min((left as usize).max(1))
     }
 
-    /// Takes note of a sample, none if it was left out, and of P after it.
+    /// Takes note of samples, none for one that was left out, and of P after the last of them;
+    /// they fit the [room](Self::room). Gives how many of them, from the first on, left P wound up
+    /// as it was known before the last one.
     #[inline]
-    pub fn watch(&mut self, factor: &Factor<M>, seen: Option<Seen<'_, M::Real>>) {
-        self.samples += 1;
-        match seen {
-            Some(seen) => {
-                let rows = self.note_excitation(seen.regressors);
-                self.residual.note(&seen, rows);
-            }
-            None => self.silence.as_mut().iter_mut().for_each(|silence| *silence += M::Real::ONE),
-        }
-        self.in_block += 1;
+    pub fn watch<'s>(
+        &mut self,
+        factor: &Factor<M>,
+        samples: impl Clone + ExactSizeIterator<Item = Option<Seen<'s, M::Real>>> + DoubleEndedIterator,
+    ) -> usize {
+        let count = samples.len() as u64;
+        let silence = Silence {
+            variances: self.variances.as_ref(),
+            least: M::Real::from_f64(SHARE) / self.length,
+            since: self.silence.as_mut(),
+        };
+        let (residual, gauge) = (&mut self.residual, self.weakest.gauge());
+        let wound_up = M::Real::compute(Note { samples, residual, gauge, silence });
+        self.samples += count;
+        self.in_block += count;
         if M::Real::from_f64(self.in_block as f64) >= self.length {
             self.turn(factor);
         }
-    }
-
-    /// Returns the number of rows.
-    #[inline]
-    fn note_excitation(&mut self, regressors: &[M::Real]) -> usize {
-        let variances = self.variances.as_ref();
-        let (share, mut rows) = (M::Real::from_f64(SHARE), 0);
-        for row in regressors.chunks_exact(variances.len()) {
-            // a sample ages once, whatever its rows
-            let age = if rows == 0 { M::Real::ONE } else { M::Real::ZERO };
-            self.weakest.note(row);
-            let parameters = self.silence.as_mut().iter_mut().zip(variances);
-            for (&f, (silence, &variance)) in row.iter().zip(parameters) {
-                let excited = f * f * (variance * self.length) >= share;
-                *silence = if excited { M::Real::ZERO } else { *silence + age };
-            }
-            rows += 1;
-        }
-        rows
+        wound_up
     }
 
     /// The end of a block.
     #[cold]
     fn turn(&mut self, factor: &Factor<M>) {
-        if self.weakest.turn(factor, self.samples) {
+        factor.variances(self.variances.as_mut());
+        if self.weakest.turn(factor, self.variances.as_ref(), self.samples) {
             self.informed = self.samples;
         }
-        self.start_block(factor);
+        self.start_block();
     }
 
     /// What the watch has seen.

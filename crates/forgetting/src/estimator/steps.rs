@@ -66,13 +66,14 @@ where
         }
         if let Some(monitor) = &mut self.monitor {
             let seen = Seen {
+                rows: sample.rows(),
                 regressors: sample.regressors(),
                 errors: sample.errors(),
                 squared_error: known.used_error(),
                 leverage,
                 forgetting_factor: lambda,
             };
-            monitor.watch(&self.factor, skipped.is_none().then_some(seen));
+            monitor.watch(&self.factor, core::iter::once(skipped.is_none().then_some(seen)));
         }
         let noise = sample.scaled() * sample.scaled();
         Ok(Update {

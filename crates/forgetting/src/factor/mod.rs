@@ -9,13 +9,16 @@ mod covariance;
 pub(crate) mod dense;
 mod form;
 mod information;
+#[macro_use]
 pub mod kernel;
+mod variances;
 
 pub use form::{DeadZone, Form};
 pub use information::Measured;
 
 use crate::{Error, Memory, Real};
 use core::cmp::Ordering;
+use variances::Variances;
 
 /// P = U D Uᵀ, n x n and positive definite.
 #[derive(Clone, Debug)]
@@ -181,9 +184,8 @@ impl<M: Memory> Factor<M> {
 
     /// The diagonal of P, written to `variances` (n elements), O(n²).
     pub fn variances(&self, variances: &mut [M::Real]) {
-        for (i, variance) in variances.iter_mut().enumerate().take(self.parameters()) {
-            *variance = self.element(i, i);
-        }
+        let (columns, diagonal) = (self.columns.as_ref(), self.diagonal.as_ref());
+        M::Real::compute(Variances { columns, diagonal, variances });
     }
 
     /// D_j ← `d`, or the floor where that is below it.

@@ -21,16 +21,17 @@ impl<T: Real> Residual<T> {
         Self { weight: zero, squares: zero, products: zero, previous: zero }
     }
 
-    /// Takes note of a sample of so many rows.
-    #[inline]
-    pub fn note(&mut self, seen: &Seen<'_, T>, rows: usize) {
-        let Seen { errors, squared_error, leverage, forgetting_factor: lambda, .. } = *seen;
+    /// Takes note of a sample, inside a kernel.
+    #[inline(always)]
+    pub fn note(&mut self, seen: &Seen<'_, T>) {
+        let Seen { rows, errors, squared_error, leverage, forgetting_factor: lambda, .. } = *seen;
         let spread = T::ONE + average(leverage, rows);
         if spread > T::from_f64(2.0) {
             return; // more uncertain of the parameters than of the noise: it tells nothing of noise
         }
         let inverse = T::ONE / spread;
-        let innovation = errors[0] * inverse.sqrt();
+        // neither the quotient nor the root waits for the other
+        let innovation = errors[0] * (inverse * spread.sqrt());
         let square = average(squared_error, errors.len()) * inverse;
         self.weight = lambda.mul_add(self.weight, T::ONE);
         self.squares = lambda.mul_add(self.squares, square);
@@ -49,7 +50,7 @@ impl<T: Real> Residual<T> {
     }
 }
 
-#[inline]
+#[inline(always)]
 fn average<T: Real>(x: T, count: usize) -> T {
     if count == 1 {
         x

@@ -1,7 +1,8 @@
 //! The direction that is known least, in units of what each parameter was known by at its best.
 
+use super::note::Gauge;
 use super::{FACTOR, RECOVERY, SHARE};
-use crate::factor::kernel::{add_scaled, dot};
+use crate::factor::kernel::dot;
 use crate::state::{is_finite, State, Visitor};
 use crate::{Factor, Memory, Real};
 
@@ -30,8 +31,8 @@ pub(super) struct Weakest<M: Memory> {
 }
 
 impl<M: Memory> Weakest<M> {
-    /// Of this P; `bounded` if the rule bounds it without excitation.
-    pub fn new(factor: &Factor<M>, bounded: bool) -> Self {
+    /// Of this P with these `variances`; `bounded` if the rule bounds it without excitation.
+    pub fn new(factor: &Factor<M>, variances: &[M::Real], bounded: bool) -> Self {
         let (memory, zero) = (factor.memory(), M::Real::ZERO);
         let mut weakest = Self {
             bounded,
@@ -45,11 +46,11 @@ impl<M: Memory> Weakest<M> {
             information: [zero; 2],
             told: memory.vector(),
         };
-        factor.variances(weakest.least.as_mut());
-        for (x, &least) in weakest.axis.as_mut().iter_mut().zip(weakest.least.as_ref()) {
-            *x = least.sqrt();
+        weakest.least.as_mut().copy_from_slice(variances);
+        for (x, &variance) in weakest.axis.as_mut().iter_mut().zip(variances) {
+            *x = variance.sqrt();
         }
-        weakest.look(factor, 0);
+        weakest.look(factor, variances, 0);
         weakest.reference = weakest.variance;
         weakest
     }
@@ -57,9 +58,13 @@ impl<M: Memory> Weakest<M> {
     /// Whether it has wound up.
     #[inline]
     pub fn windup(&self) -> bool {
-        !self.bounded
-            && self.variance > M::Real::from_f64(FACTOR) * self.reference
-            && !self.is_informed()
+        self.has_grown() && !self.is_informed()
+    }
+
+    /// Whether its variance has, and is not bounded.
+    #[inline]
+    fn has_grown(&self) -> bool {
+        !self.bounded && self.variance > M::Real::from_f64(FACTOR) * self.reference
     }
 
     /// Whether it is told enough now.
@@ -85,19 +90,23 @@ impl<M: Memory> Weakest<M> {
         (share * excess).max(share).min(recovery)
     }
 
-    /// Takes note of one row.
+    /// For taking note of samples.
     #[inline]
-    pub fn note(&mut self, row: &[M::Real]) {
-        let along = dot(row, self.axis.as_ref());
-        self.information[0] += along * along;
-        add_scaled(self.told.as_mut(), along, row);
+    pub fn gauge(&mut self) -> Gauge<'_, M::Real> {
+        Gauge {
+            variance: self.variance,
+            needed: if self.has_grown() { self.needed() } else { M::Real::ZERO },
+            information: &mut self.information,
+            axis: self.axis.as_ref(),
+            told: self.told.as_mut(),
+        }
     }
 
     /// The end of a block, after so many samples; returns whether w was informed in it.
-    pub fn turn(&mut self, factor: &Factor<M>, samples: u64) -> bool {
+    pub fn turn(&mut self, factor: &Factor<M>, variances: &[M::Real], samples: u64) -> bool {
         let (before, needed) = (self.variance, self.needed());
         let along = self.information[0];
-        let same = self.look(factor, samples);
+        let same = self.look(factor, variances, samples);
         let (last, informed) = if same && along > M::Real::ZERO {
             // Σ (φ̃ w)² of the new w is at least this (Cauchy and Schwarz): a trickle along the old
             // one may be none along the new one, with its larger variance
@@ -119,10 +128,9 @@ impl<M: Memory> Weakest<M> {
     }
 
     /// Looks for w again; says whether it is still about the same. O(n²).
-    fn look(&mut self, factor: &Factor<M>, samples: u64) -> bool {
+    fn look(&mut self, factor: &Factor<M>, variances: &[M::Real], samples: u64) -> bool {
         let (before, direction) = (self.before.as_mut(), self.direction.as_mut());
-        factor.variances(before);
-        for (least, &now) in self.least.as_mut().iter_mut().zip(before.iter()) {
+        for (least, &now) in self.least.as_mut().iter_mut().zip(variances) {
             *least = least.min(now).max(M::Real::FLOOR);
         }
         before.copy_from_slice(self.axis.as_ref());
@@ -137,7 +145,7 @@ impl<M: Memory> Weakest<M> {
         let fits = variance <= M::Real::CEILING;
         self.variance = if fits { variance } else { M::Real::CEILING };
         direction.copy_from_slice(axis);
-        normalize(direction);
+        normalize(direction, |x| dot(x, x));
         self.spread = factor.leverage(direction);
         overlap * overlap > M::Real::from_f64(0.8)
     }
@@ -179,28 +187,29 @@ fn turn_axis<M: Memory>(
     // a little of every axis keeps the iteration from missing a direction for ever
     let nudge = M::Real::EPSILON.sqrt();
     for (i, (u, (&x, &least))) in work.iter_mut().zip(axis.iter().zip(least)).enumerate() {
-        let (s, up) = (least.sqrt(), (samples >> (i % 32)) & 1 == 0);
-        *u = (x / s + if up { nudge } else { -nudge }) / s;
+        let up = (samples >> (i % 32)) & 1 == 0;
+        let s = least.sqrt();
+        *u = (x + nudge * if up { s } else { -s }) / least;
     }
     factor.multiply(work);
-    for (y, &least) in work.iter_mut().zip(least) {
-        *y /= least.sqrt();
-    }
-    if normalize(work) {
-        for (x, (&w, &least)) in axis.iter_mut().zip(work.iter().zip(least)) {
-            *x = w * least.sqrt();
-        }
+    let squares = |x: &[M::Real]| {
+        x.iter().zip(least).fold(M::Real::ZERO, |sum, (&x, &least)| sum + x * x / least)
+    };
+    if normalize(work, squares) {
+        axis.copy_from_slice(work);
     }
 }
 
-/// x ← x / ‖x‖, if that has a value; says whether it has.
-fn normalize<T: Real>(x: &mut [T]) -> bool {
+/// Makes x of length 1, if it has one; says whether it has.
+fn normalize<T: Real>(x: &mut [T], squared_length: impl Fn(&[T]) -> T) -> bool {
     let largest = x.iter().fold(T::ZERO, |largest, x| largest.max(x.abs()));
-    if !(largest > T::ZERO && largest.is_finite()) {
+    let inverse = T::ONE / largest;
+    if !(inverse > T::ZERO && inverse.is_finite()) {
         return false;
     }
-    x.iter_mut().for_each(|x| *x /= largest);
-    let length = dot(x, x).sqrt();
-    x.iter_mut().for_each(|x| *x /= length);
+    // first so that no square overflows
+    x.iter_mut().for_each(|x| *x *= inverse);
+    let inverse = T::ONE / squared_length(x).sqrt();
+    x.iter_mut().for_each(|x| *x *= inverse);
     true
 }

@@ -21,21 +21,26 @@ impl<T: Real> Kernel<T> for Dot<'_, T> {
     #[inline(always)]
     fn run<V: Vector<T>, const GROUP: usize>(self) -> T {
         let length = self.a.len().min(self.b.len());
-        let (a, a_rest) = T::chunks(&self.a[..length]);
-        let (b, b_rest) = T::chunks(&self.b[..length]);
-        let mut sum = T::ZERO;
-        if !a.is_empty() {
-            let mut lanes = V::splat(T::ZERO);
-            for (a, b) in a.iter().zip(b) {
-                lanes = V::load(a).mul_add(V::load(b), lanes);
-            }
-            sum = lanes.sum();
-        }
-        for (&a, &b) in a_rest.iter().zip(b_rest) {
-            sum = a.mul_add(b, sum);
-        }
-        sum
+        dot_of::<T, V>(&self.a[..length], &self.b[..length])
     }
+}
+
+/// Σ aᵢ bᵢ of two that are equally long, inside another kernel.
+#[inline(always)]
+pub fn dot_of<T: Real, V: Vector<T>>(a: &[T], b: &[T]) -> T {
+    let ((a, a_rest), (b, b_rest)) = (T::chunks(a), T::chunks(b));
+    let mut sum = T::ZERO;
+    if !a.is_empty() {
+        let mut lanes = V::splat(T::ZERO);
+        for (a, b) in a.iter().zip(b) {
+            lanes = V::load(a).mul_add(V::load(b), lanes);
+        }
+        sum = lanes.sum();
+    }
+    for (&a, &b) in a_rest.iter().zip(b_rest) {
+        sum = a.mul_add(b, sum);
+    }
+    sum
 }
 
 /// `y` += c·`x`

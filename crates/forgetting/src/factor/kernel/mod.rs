@@ -55,6 +55,7 @@ pub use layout::{
     capacity, column, get_column, length, most, place, put_column, scratch, set_identity, visit,
     FEW,
 };
+pub(crate) use long::{add_scaled_by, dot_of};
 pub(crate) use measure::{Measure, Place};
 pub(crate) use steps::Steps;
 pub use told::Told;

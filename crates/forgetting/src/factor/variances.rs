@@ -1,0 +1,42 @@
+//! The diagonal of P.
+
+use super::kernel::place;
+use crate::vector::Vector;
+use crate::{Kernel, Real};
+
+/// Writes P_ii = Σ_k U_ik D_k U_ik to `variances`, column by column.
+pub(super) struct Variances<'a, T> {
+    pub columns: &'a [T],
+    pub diagonal: &'a [T],
+    pub variances: &'a mut [T],
+}
+
+impl<T: Real> Kernel<T> for Variances<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn size(&self) -> usize {
+        self.diagonal.len()
+    }
+
+    #[inline(always)]
+    fn run<V: Vector<T>, const GROUP: usize>(self) {
+        let Self { columns, diagonal, variances } = self;
+        variances.fill(T::ZERO);
+        let (variances, rest) = T::chunks_mut(variances);
+        for (k, &d) in diagonal.iter().enumerate() {
+            // there are zeros below the diagonal
+            let piece = |i: usize| &columns[place::<T>(i * T::ROWS, k)..][..T::ROWS];
+            let (whole, scale) = (variances.len().min(k / T::ROWS + 1), V::splat(d));
+            for (i, variance) in variances[..whole].iter_mut().enumerate() {
+                let u = V::load(&T::chunks(piece(i)).0[0]);
+                (u * scale).mul_add(u, V::load(variance)).store(variance);
+            }
+            if k / T::ROWS == variances.len() {
+                for (variance, &u) in rest.iter_mut().zip(piece(whole)) {
+                    *variance = (u * d).mul_add(u, *variance);
+                }
+            }
+        }
+    }
+}
