@@ -27,6 +27,8 @@ pub trait Lane<T>:
     fn mul_add(self, factor: Self, term: Self) -> Self;
     /// The larger of two numbers, neither of them NaN.
     fn max(self, other: Self) -> Self;
+    /// The smaller of two numbers, neither of them NaN.
+    fn min(self, other: Self) -> Self;
     /// Magnitude.
     fn abs(self) -> Self;
     /// Square root.
@@ -70,6 +72,10 @@ impl<T: Real> Lane<T> for T {
     #[inline(always)]
     fn max(self, other: T) -> T {
         Real::max(self, other)
+    }
+    #[inline(always)]
+    fn min(self, other: T) -> T {
+        Real::min(self, other)
     }
     #[inline(always)]
     fn abs(self) -> T {

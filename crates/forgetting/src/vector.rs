@@ -20,6 +20,16 @@ pub trait Vector<T: Real>: Lane<T> {
     fn load(chunk: &T::Chunk) -> Self;
     /// Writes all lanes to `chunk`.
     fn store(self, chunk: &mut T::Chunk);
+    /// So many lanes from the first on, and zeros.
+    #[inline(always)]
+    fn first(self, count: usize) -> Self {
+        let mut position = T::chunk(&[]);
+        for (i, position) in position.as_mut().iter_mut().enumerate() {
+            *position = T::from_f64(i as f64);
+        }
+        let within = Self::load(&position).less_than(Self::splat(T::from_f64(count as f64)));
+        Self::select(within, self, Self::splat(T::ZERO))
+    }
     /// The sum of all lanes: halves added to halves down to four, then pairs.
     fn sum(self) -> T;
     /// The sum of each of `C` vectors.
@@ -108,6 +118,10 @@ impl<T: Real, const L: usize> Lane<T> for Lanes<T, L> {
     #[inline(always)]
     fn max(self, other: Self) -> Self {
         Self(array::from_fn(|lane| Real::max(self.0[lane], other.0[lane])))
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self(array::from_fn(|lane| Real::min(self.0[lane], other.0[lane])))
     }
     #[inline(always)]
     fn abs(self) -> Self {

@@ -41,7 +41,7 @@ operator! {
 
 /// The rest of the arithmetic of a pair of registers.
 macro_rules! pair {
-    ($float:ident, $register:ty: $set1:ident $fmadd:ident $max:ident $sqrt:ident $cmp:ident
+    ($float:ident, $register:ty: $set1:ident $fmadd:ident $max:ident $min:ident $sqrt:ident $cmp:ident
      $and:ident $andnot:ident $xor:ident $blendv:ident $movemask:ident $full:literal) => {
         impl Neg for Pair<$register> {
             type Output = Self;
@@ -69,6 +69,10 @@ macro_rules! pair {
             #[inline(always)]
             fn max(self, other: Self) -> Self {
                 Self(unsafe { $max(self.0, other.0) }, unsafe { $max(self.1, other.1) })
+            }
+            #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                Self(unsafe { $min(self.0, other.0) }, unsafe { $min(self.1, other.1) })
             }
             #[inline(always)]
             fn abs(self) -> Self {
@@ -109,16 +113,16 @@ macro_rules! pair {
     };
 }
 
-pair!(f64, __m256d: _mm256_set1_pd _mm256_fmadd_pd _mm256_max_pd _mm256_sqrt_pd _mm256_cmp_pd
+pair!(f64, __m256d: _mm256_set1_pd _mm256_fmadd_pd _mm256_max_pd _mm256_min_pd _mm256_sqrt_pd _mm256_cmp_pd
     _mm256_and_pd _mm256_andnot_pd _mm256_xor_pd _mm256_blendv_pd
     _mm256_movemask_pd 0xF);
-pair!(f32, __m256: _mm256_set1_ps _mm256_fmadd_ps _mm256_max_ps _mm256_sqrt_ps _mm256_cmp_ps
+pair!(f32, __m256: _mm256_set1_ps _mm256_fmadd_ps _mm256_max_ps _mm256_min_ps _mm256_sqrt_ps _mm256_cmp_ps
     _mm256_and_ps _mm256_andnot_ps _mm256_xor_ps _mm256_blendv_ps
     _mm256_movemask_ps 0xFF);
 
 /// The rest of the arithmetic of a wide register.
 macro_rules! wide {
-    ($float:ident, $register:ty, $mask:ty: $set1:ident $fmadd:ident $max:ident $sqrt:ident
+    ($float:ident, $register:ty, $mask:ty: $set1:ident $fmadd:ident $max:ident $min:ident $sqrt:ident
      $abs:ident $cmp:ident $xor:ident $blend:ident) => {
         impl Neg for Wide<$register> {
             type Output = Self;
@@ -142,6 +146,10 @@ macro_rules! wide {
             #[inline(always)]
             fn max(self, other: Self) -> Self {
                 Self(unsafe { $max(self.0, other.0) })
+            }
+            #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                Self(unsafe { $min(self.0, other.0) })
             }
             #[inline(always)]
             fn abs(self) -> Self {
@@ -175,7 +183,7 @@ macro_rules! wide {
     };
 }
 
-wide!(f64, __m512d, __mmask8: _mm512_set1_pd _mm512_fmadd_pd _mm512_max_pd _mm512_sqrt_pd
+wide!(f64, __m512d, __mmask8: _mm512_set1_pd _mm512_fmadd_pd _mm512_max_pd _mm512_min_pd _mm512_sqrt_pd
     _mm512_abs_pd _mm512_cmp_pd_mask _mm512_xor_pd _mm512_mask_blend_pd);
-wide!(f32, __m512, __mmask16: _mm512_set1_ps _mm512_fmadd_ps _mm512_max_ps _mm512_sqrt_ps
+wide!(f32, __m512, __mmask16: _mm512_set1_ps _mm512_fmadd_ps _mm512_max_ps _mm512_min_ps _mm512_sqrt_ps
     _mm512_abs_ps _mm512_cmp_ps_mask _mm512_xor_ps _mm512_mask_blend_ps);

@@ -36,7 +36,7 @@ operator! {
 
 /// The rest of the arithmetic.
 macro_rules! single {
-    ($float:ident, $register:ty, $full:literal: $set1:ident $fmadd:ident $max:ident $sqrt:ident
+    ($float:ident, $register:ty, $full:literal: $set1:ident $fmadd:ident $max:ident $min:ident $sqrt:ident
      $cmp:ident $and:ident $andnot:ident $xor:ident $blendv:ident $movemask:ident) => {
         impl Neg for Single<$register> {
             type Output = Self;
@@ -60,6 +60,10 @@ macro_rules! single {
             #[inline(always)]
             fn max(self, other: Self) -> Self {
                 Self(unsafe { $max(self.0, other.0) })
+            }
+            #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                Self(unsafe { $min(self.0, other.0) })
             }
             #[inline(always)]
             fn abs(self) -> Self {
@@ -93,14 +97,14 @@ macro_rules! single {
     };
 }
 
-single!(f64, __m128d, 0x3: _mm_set1_pd _mm_fmadd_pd _mm_max_pd _mm_sqrt_pd _mm_cmp_pd _mm_and_pd
+single!(f64, __m128d, 0x3: _mm_set1_pd _mm_fmadd_pd _mm_max_pd _mm_min_pd _mm_sqrt_pd _mm_cmp_pd _mm_and_pd
     _mm_andnot_pd _mm_xor_pd _mm_blendv_pd _mm_movemask_pd);
-single!(f32, __m128, 0xF: _mm_set1_ps _mm_fmadd_ps _mm_max_ps _mm_sqrt_ps _mm_cmp_ps _mm_and_ps
+single!(f32, __m128, 0xF: _mm_set1_ps _mm_fmadd_ps _mm_max_ps _mm_min_ps _mm_sqrt_ps _mm_cmp_ps _mm_and_ps
     _mm_andnot_ps _mm_xor_ps _mm_blendv_ps _mm_movemask_ps);
-single!(f64, __m256d, 0xF: _mm256_set1_pd _mm256_fmadd_pd _mm256_max_pd _mm256_sqrt_pd
+single!(f64, __m256d, 0xF: _mm256_set1_pd _mm256_fmadd_pd _mm256_max_pd _mm256_min_pd _mm256_sqrt_pd
     _mm256_cmp_pd _mm256_and_pd _mm256_andnot_pd _mm256_xor_pd _mm256_blendv_pd
     _mm256_movemask_pd);
-single!(f32, __m256, 0xFF: _mm256_set1_ps _mm256_fmadd_ps _mm256_max_ps _mm256_sqrt_ps
+single!(f32, __m256, 0xFF: _mm256_set1_ps _mm256_fmadd_ps _mm256_max_ps _mm256_min_ps _mm256_sqrt_ps
     _mm256_cmp_ps _mm256_and_ps _mm256_andnot_ps _mm256_xor_ps _mm256_blendv_ps
     _mm256_movemask_ps);
 

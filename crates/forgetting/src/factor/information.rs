@@ -79,7 +79,7 @@ impl<M: Memory> Factor<M> {
         (told, thetas): (&mut [Told<M::Real>], &mut [M::Real]),
     ) -> usize {
         let place = self.place(scratch);
-        M::Real::compute(Steps { place, form, phi, y, theta, told, thetas })
+        kernel::advance(&mut Steps { place, form, phi, y, theta, told, thetas })
     }
 
     #[inline]

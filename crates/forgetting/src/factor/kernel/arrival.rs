@@ -11,24 +11,38 @@ pub struct Arrival<T, const S: usize> {
     pub squares: [T; S],
 }
 
-/// Puts the n numbers a sample of `phi` side by side in `f`, and zeros after them.
+/// Puts the n numbers of each sample, which come one after the other at the beginning of `phi`, side
+/// by side in `f`, and zeros after them.
 #[inline(always)]
 pub fn arrive<T: Real, V: Vector<T>, const S: usize>(
     phi: &[T],
     theta: &[T],
     f: &mut [[T::Chunk; S]],
 ) -> Arrival<T, S> {
-    let (chunks, rest) = T::chunks(theta);
-    let last = T::chunk(rest);
+    let n = theta.len();
+    let (full, rest) = T::chunks(theta);
     let [mut predicted, mut squares] = [[V::splat(T::ZERO); S]; 2];
-    for (t, f) in f.iter_mut().enumerate() {
-        let theta_t = V::load(chunks.get(t).unwrap_or(&last));
+    for (t, theta) in full.iter().enumerate() {
+        let theta = V::load(theta);
         for l in 0..S {
-            let (chunks, rest) = T::chunks(&phi[l * theta.len()..(l + 1) * theta.len()]);
-            f[l] = chunks.get(t).copied().unwrap_or_else(|| T::chunk(rest));
-            let f = V::load(&f[l]);
-            predicted[l] = f.mul_add(theta_t, predicted[l]);
+            f[t][l] = T::chunks(&phi[l * n + t * T::ROWS..]).0[0];
+            let f = V::load(&f[t][l]);
+            predicted[l] = f.mul_add(theta, predicted[l]);
             squares[l] = f.mul_add(f, squares[l]);
+        }
+    }
+    if !rest.is_empty() {
+        let (theta, last) = (V::load(&T::chunk(rest)), full.len());
+        for l in 0..S {
+            let numbers = &phi[l * n + last * T::ROWS..];
+            let lanes = match T::chunks(numbers).0.first() {
+                // what follows are numbers of other samples
+                Some(chunk) => V::load(chunk).first(rest.len()),
+                None => V::load(&T::chunk(&numbers[..rest.len()])),
+            };
+            lanes.store(&mut f[last][l]);
+            predicted[l] = lanes.mul_add(theta, predicted[l]);
+            squares[l] = lanes.mul_add(lanes, squares[l]);
         }
     }
     Arrival { predicted: V::sums(predicted), squares: V::sums(squares) }

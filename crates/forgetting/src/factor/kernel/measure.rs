@@ -5,10 +5,10 @@ use super::along::Room;
 use super::bierman::{self, largest};
 use super::layout::FEW;
 use super::long::add_scaled_by;
-use super::small::{Gain, Small};
+use super::small::{far_from_floor, Gain, Small};
 use crate::factor::{Form, Measured};
 use crate::vector::Vector;
-use crate::{Kernel, Lane, One, Real};
+use crate::{Kernel, One, Real};
 
 /// The factor and what goes with it.
 pub struct Place<'a, T> {
@@ -56,14 +56,7 @@ impl<T: Real> Kernel<T> for Measure<'_, T> {
     }
 }
 
-impl<T: Real> Place<'_, T> {
-    /// Whether P may grow so; if so, the bound follows.
-    #[inline(always)]
-    fn make_room(&mut self, growth: T, added: T) -> Option<()> {
-        make_room(self.bound, growth, added)
-    }
-}
-
+/// Whether P may grow so; if so, the bound of its trace follows.
 #[inline(always)]
 fn make_room<T: Real>(bound: &mut T, growth: T, added: T) -> Option<()> {
     let grown = *bound * growth + added;
@@ -80,7 +73,15 @@ fn few<T: Real, A: One<T>, const N: usize>(
 ) -> Option<Measured<T>> {
     let (f, d) = (f.first_chunk::<N>()?, place.diagonal.first_chunk::<N>()?);
     let mut small = Small::<A, N>::load(place.columns, d);
-    let (gain, forgot) = take(&mut small, place, form, &f.map(Lane::splat), squares)?;
+    let (f, least) = (f.map(A::splat), T::FLOOR);
+    let (gain, forgot) = match form {
+        Form::Scale { growth } => {
+            scale::<T, A, N, true>(&mut small, place, growth, (&f, squares), least)?
+        }
+        Form::Along { weight, .. } => {
+            along::<T, A, N, true>(&mut small, place, weight, (&f, squares), least)?
+        }
+    };
     small.store(place.columns, place.diagonal.first_chunk_mut()?);
     for (k, gain) in place.scratch.iter_mut().zip(gain.k) {
         *k = gain.get();
@@ -94,35 +95,49 @@ fn few<T: Real, A: One<T>, const N: usize>(
     })
 }
 
-/// Forgets and measures in registers, unless there is no room; says whether anything was forgotten.
+/// Scales P and measures f with the squared length `squares` in registers, unless there is no room;
+/// says whether anything was forgotten.
+///
+/// Unless `NEAR` it does nothing, either, where an element of D may come near its floor; all of them
+/// are at least `least`.
 #[inline(always)]
-pub fn take<T: Real, A: One<T>, const N: usize>(
+pub fn scale<T: Real, A: One<T>, const N: usize, const NEAR: bool>(
     small: &mut Small<A, N>,
     place: &mut Place<'_, T>,
-    form: Form<T>,
-    f: &[A; N],
-    squares: T,
+    growth: T,
+    (f, squares): (&[A; N], T),
+    least: T,
 ) -> Option<(Gain<A, N>, bool)> {
-    let one = A::splat;
-    match form {
-        Form::Scale { growth } => {
-            place.make_room(growth, T::ZERO)?;
-            Some((small.scale_and_measure(one(growth), f), growth > T::ONE))
-        }
-        Form::Along { weight, .. } => {
-            let mut along = small.along(f);
-            let information = along.information.get();
-            let c = weight / information;
-            if !adds(c) {
-                (along.z, along.q) = ([one(T::ZERO); N], [one(T::ZERO); N]);
-                let nothing = (one(T::ZERO), one(T::ONE));
-                return Some((small.add_and_measure(nothing, &along, f), false));
-            }
-            place.make_room(T::ONE, c * squares)?;
-            let added = (one(c), one(information / weight));
-            Some((small.add_and_measure(added, &along, f), true))
-        }
+    let far = |trace| NEAR || far_from_floor(least, trace, squares);
+    let trace = *place.bound * growth;
+    (trace < T::CEILING && far(trace)).then(|| *place.bound = trace)?;
+    let gain = small.scale_and_measure::<T, NEAR>(A::splat(growth), f);
+    Some((gain, growth > T::ONE))
+}
+
+/// The same with forgetting along f.
+#[inline(always)]
+pub fn along<T: Real, A: One<T>, const N: usize, const NEAR: bool>(
+    small: &mut Small<A, N>,
+    place: &mut Place<'_, T>,
+    weight: T,
+    (f, squares): (&[A; N], T),
+    least: T,
+) -> Option<(Gain<A, N>, bool)> {
+    let far = |trace| NEAR || far_from_floor(least, trace, squares);
+    let (one, zero) = (A::splat(T::ONE), A::splat(T::ZERO));
+    let mut along = small.along(f);
+    let information = along.information.get();
+    let c = weight / information;
+    if !adds(c) {
+        far(*place.bound).then_some(())?;
+        (along.z, along.q) = ([zero; N], [zero; N]);
+        return Some((small.add_and_measure::<T, NEAR>((zero, one), &along, f), false));
     }
+    let trace = *place.bound + c * squares;
+    (trace < T::CEILING && far(trace)).then(|| *place.bound = trace)?;
+    let added = (A::splat(c), A::splat(information / weight));
+    Some((small.add_and_measure::<T, NEAR>(added, &along, f), true))
 }
 
 /// Whether c·fᵀf is to be added: not for λ = 1 or f = 0, nor for more information than the number
@@ -142,16 +157,16 @@ pub fn many<T: Real, V: Vector<T>, const GROUP: usize>(
 ) -> Option<Measured<T>> {
     match form {
         Form::Scale { growth } => {
-            place.make_room(growth, T::ZERO)?;
-            Some(scale::<T, V, GROUP>(place, growth, f))
+            make_room(place.bound, growth, T::ZERO)?;
+            Some(scale_many::<T, V, GROUP>(place, growth, f))
         }
-        Form::Along { weight, .. } => along::<T, V, GROUP>(place, weight, f, squares),
+        Form::Along { weight, .. } => along_many::<T, V, GROUP>(place, weight, f, squares),
     }
 }
 
 /// Forgets along f, unless there is nothing to forget.
 #[inline(always)]
-fn along<T: Real, V: Vector<T>, const GROUP: usize>(
+fn along_many<T: Real, V: Vector<T>, const GROUP: usize>(
     place: &mut Place<'_, T>,
     weight: T,
     f: &[T],
@@ -167,7 +182,7 @@ fn along<T: Real, V: Vector<T>, const GROUP: usize>(
     let information = room.information::<V::Eight, 0>();
     let c = weight / information;
     if !adds(c) {
-        return Some(scale::<T, V, GROUP>(place, T::ONE, f));
+        return Some(scale_many::<T, V, GROUP>(place, T::ONE, f));
     }
     make_room(place.bound, T::ONE, c * squares)?;
     let measured = room.add_and_measure::<V::Eight, 0>(information / weight).0;
@@ -179,7 +194,7 @@ fn along<T: Real, V: Vector<T>, const GROUP: usize>(
 }
 
 #[inline(always)]
-fn scale<T: Real, V: Vector<T>, const GROUP: usize>(
+fn scale_many<T: Real, V: Vector<T>, const GROUP: usize>(
     place: &mut Place<'_, T>,
     growth: T,
     f: &[T],

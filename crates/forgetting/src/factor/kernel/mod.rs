@@ -57,7 +57,7 @@ pub use layout::{
 };
 pub(crate) use long::{add_scaled_by, dot_of};
 pub(crate) use measure::{Measure, Place};
-pub(crate) use steps::Steps;
+pub(crate) use steps::{advance, Steps};
 pub use told::Told;
 
 use super::{Form, Measured};

@@ -12,7 +12,7 @@
 
 #![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
 
-use super::layout::{place, BLOCK};
+use super::layout::place;
 use crate::{Lane, One, Real};
 
 /// U above its diagonal, by columns, and D.
@@ -84,9 +84,13 @@ struct Chain<A, const N: usize> {
 }
 
 impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
-    /// P ← `growth`·P, then P⁻¹ ← P⁻¹ + fᵀf.
+    /// P ← `growth`·P, then P⁻¹ ← P⁻¹ + fᵀf. `NEAR` is false if [`far_from_floor`] is known.
     #[inline(always)]
-    pub fn scale_and_measure<T: Real>(&mut self, growth: A, f: &[A; N]) -> Gain<A, N>
+    pub fn scale_and_measure<T: Real, const NEAR: bool>(
+        &mut self,
+        growth: A,
+        f: &[A; N],
+    ) -> Gain<A, N>
     where
         A: Lane<T>,
     {
@@ -94,7 +98,7 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
             *d = *d * growth;
         }
         let mut w = transposed(&self.u, f);
-        let chain = self.chain(&mut w);
+        let chain = self.chain::<T, NEAR>(&mut w);
         self.u.last_pass(&self.d);
         let mut k = [A::splat(T::ZERO); N];
         for c in 0..N {
@@ -107,7 +111,9 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
             }
             k[c] = chain.v[c];
         }
-        self.narrow(&chain);
+        if NEAR {
+            self.narrow(&chain);
+        }
         chain.gain(k)
     }
 
@@ -147,7 +153,7 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
 
     /// P ← P + c·fᵀf, then P⁻¹ ← P⁻¹ + fᵀf, with t = 1/c; where z and q are 0, c is 0 instead.
     #[inline(always)]
-    pub fn add_and_measure<T: Real>(
+    pub fn add_and_measure<T: Real, const NEAR: bool>(
         &mut self,
         (c, mut t): (A, A),
         Along { z, q, .. }: &Along<A, N>,
@@ -170,34 +176,56 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
             w[c] = slope[c].mul_add(p, before);
             p = z[c].mul_add(before, p);
         }
-        let chain = self.chain(&mut w);
+        let chain = self.chain::<T, NEAR>(&mut w);
         self.u.last_pass(&self.d);
-        let (mut k, mut x) = ([zero; N], [zero; N]);
-        for c in 0..N {
-            let less_w = -w[c];
-            for i in 0..c {
-                let before = self.u.get(c, i);
-                let widened = slope[c].mul_add(x[i], before);
-                x[i] = z[c].mul_add(before, x[i]);
-                self.u.set(c, i, (less_w * k[i]).mul_add(chain.inverse[c], widened));
-                k[i] = chain.v[c].mul_add(widened, k[i]);
-            }
-            (x[c], k[c]) = (z[c], chain.v[c]);
+        let mut sums = [[zero; N]; 2];
+        // two loops: the compiler does not unroll one over ten columns
+        for c in 0..N / 2 {
+            let measured = (-w[c], chain.inverse[c], chain.v[c]);
+            self.widened_and_measured(c, (slope[c], z[c]), measured, &mut sums);
         }
-        self.narrow(&chain);
+        for c in N / 2..N {
+            let measured = (-w[c], chain.inverse[c], chain.v[c]);
+            self.widened_and_measured(c, (slope[c], z[c]), measured, &mut sums);
+        }
+        let [_, k] = sums;
+        if NEAR {
+            self.narrow(&chain);
+        }
         chain.gain(k)
+    }
+
+    /// Column c of U after both updates, and x and k.
+    #[inline(always)]
+    fn widened_and_measured<T: Real>(
+        &mut self,
+        c: usize,
+        (slope, z): (A, A),
+        (less_w, inverse, v): (A, A, A),
+        [x, k]: &mut [[A; N]; 2],
+    ) where
+        A: Lane<T>,
+    {
+        for i in 0..c {
+            let before = self.u.get(c, i);
+            let widened = slope.mul_add(x[i], before);
+            x[i] = z.mul_add(before, x[i]);
+            self.u.set(c, i, (less_w * k[i]).mul_add(inverse, widened));
+            k[i] = v.mul_add(widened, k[i]);
+        }
+        (x[c], k[c]) = (z, v);
     }
 
     /// D after the measurement of a regressor with w = Uᵀf, and what goes with it; the changes of U
     /// are then (−`w` k)·`inverse`.
     #[inline(always)]
-    fn chain<T: Real>(&mut self, w: &mut [A; N]) -> Chain<A, N>
+    fn chain<T: Real, const NEAR: bool>(&mut self, w: &mut [A; N]) -> Chain<A, N>
     where
         A: Lane<T>,
     {
         let (one, zero, floor) = (A::splat(T::ONE), A::splat(T::ZERO), A::splat(T::FLOOR));
         let (mut v, mut inverse, mut s) = ([zero; N], [one; N], zero);
-        let (mut largest, mut less_least) = (floor, -floor);
+        let (mut largest, mut least) = (floor, A::splat(T::CEILING));
         let (mut a, mut inverse_a) = (one, one);
         for c in 0..N {
             let d = self.d[c];
@@ -207,21 +235,16 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
             inverse_a = one / next;
             self.d[c] = d * (a * inverse_a);
             largest = largest.max(self.d[c]);
-            less_least = less_least.max(-self.d[c]);
+            least = least.min(self.d[c]);
             a = next;
         }
         for c in (0..N).rev() {
             s = w[c].mul_add(v[c], s);
         }
         let mut chain = Chain { v, inverse, s, a, inverse_a, largest, shares: None };
-        let within = A::both(less_least.at_most(-floor), a.at_most(A::splat(T::CEILING)));
-        if !A::all(within) {
-            // inline it costs large ones their registers, and apart from it small ones theirs
-            (self.d, *w, chain) = if N <= BLOCK {
-                lift::<T, A, N>(self.d, *w, chain)
-            } else {
-                lift_apart::<T, A, N>(self.d, *w, chain)
-            };
+        let within = A::both(floor.at_most(least), a.at_most(A::splat(T::CEILING)));
+        if NEAR && !A::all(within) {
+            (self.d, *w, chain) = lift(self.d, *w, chain);
         }
         chain
     }
@@ -276,14 +299,13 @@ fn lift<T: Real, A: Lane<T>, const N: usize>(
     (d, w, chain)
 }
 
-#[cold]
-#[inline(never)]
-fn lift_apart<T: Real, A: Lane<T>, const N: usize>(
-    d: [A; N],
-    w: [A; N],
-    chain: Chain<A, N>,
-) -> ([A; N], [A; N], Chain<A, N>) {
-    lift(d, w, chain)
+/// Whether a measurement leaves D above its floor, and the largest product within it a number, whatever
+/// the regressor with the squared length `squares`: D becomes no less than D / (1 + tr P ‖f‖²).
+#[inline(always)]
+pub fn far_from_floor<T: Real>(least: T, trace: T, squares: T) -> bool {
+    let leverage = trace * squares;
+    // with room for rounding
+    leverage < T::CEILING && T::FLOOR * (T::from_f64(4.0) * (T::ONE + leverage)) <= least
 }
 
 impl<A: Copy, const N: usize> Chain<A, N> {
@@ -295,6 +317,15 @@ impl<A: Copy, const N: usize> Chain<A, N> {
 }
 
 impl<A: Copy, const N: usize> Small<A, N> {
+    /// The smallest element of D.
+    #[inline(always)]
+    pub fn least<T: Real>(&self) -> T
+    where
+        A: One<T>,
+    {
+        self.d.iter().fold(A::splat(T::CEILING), |least, &d| least.min(d)).get()
+    }
+
     /// From the columns of U and from D.
     #[inline(always)]
     pub fn load<T: Real>(columns: &[T], diagonal: &[T; N]) -> Self

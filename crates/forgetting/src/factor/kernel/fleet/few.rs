@@ -146,7 +146,7 @@ fn scale<T: Real, A: Abreast<T>, const N: usize>(
     let room = (growth, A::splat(T::ZERO));
     let (bound, used) = make_room(bound, room, accepted, || small.u.trace());
     let before = small.u.copy_unless_all(used);
-    let gain = small.scale_and_measure(growth, f);
+    let gain = small.scale_and_measure::<T, true>(growth, f);
     let outcome = correct(small, &gain, (bound, error), (before.as_ref(), used));
     match before {
         None => outcome,
@@ -188,7 +188,7 @@ fn along<T: Real, A: Abreast<T>, const N: usize>(
         Some(_) if with_leverage => small.leverage(f),
         _ => error,
     };
-    let gain = small.add_and_measure((c, t), &along, f);
+    let gain = small.add_and_measure::<T, true>((c, t), &along, f);
     let outcome = correct(small, &gain, (bound, error), (before.as_ref(), used));
     match before {
         None => outcome,

@@ -1,132 +1,41 @@
-//! Samples of one row and one target, one after the other, when nothing happens between the
-//! arrival of a sample and its use.
+//! More than ten parameters: in sweeps over U.
 
-#![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
-
-use super::along;
-use super::arrival::{arrive, correct};
-use super::batch::{self, BATCH};
-use super::layout::FEW;
-use super::long::{add_scaled_by, few_products, products};
-use super::measure::{adds, many as measure_many, take, Place};
-use super::small::Small;
-use super::triangular::leverage_of;
-use super::{bierman::largest, Told};
+use super::super::along;
+use super::super::arrival::{arrive, correct};
+use super::super::batch::{self, BATCH};
+use super::super::bierman::largest;
+use super::super::long::{add_scaled_by, products};
+use super::super::measure::{adds, many as measure};
+use super::super::triangular::leverage_of;
+use super::super::Told;
+use super::{accepts, Steps};
 use crate::factor::Form;
 use crate::vector::Vector;
-use crate::{Kernel, One, Real};
+use crate::{Kernel, Real};
 
-/// Takes the samples until one is to be refused, or P needs more room; returns how many it took.
-pub struct Steps<'a, T> {
-    pub place: Place<'a, T>,
-    pub form: Form<T>,
-    /// n numbers a sample
-    pub phi: &'a [T],
-    pub y: &'a [T],
-    pub theta: &'a mut [T],
-    /// one for each sample at most
-    pub told: &'a mut [Told<T>],
-    /// n numbers a sample, or none: θ after it
-    pub thetas: &'a mut [T],
-}
+/// Takes samples.
+pub struct Many<'a, 'b, T>(pub &'b mut Steps<'a, T>);
 
-impl<T: Real> Kernel<T> for Steps<'_, T> {
+impl<T: Real> Kernel<T> for Many<'_, '_, T> {
     type Output = usize;
 
     #[inline(always)]
     fn size(&self) -> usize {
-        self.theta.len()
+        self.0.theta.len()
     }
 
     #[inline(always)]
-    fn run<V: Vector<T>, const GROUP: usize>(mut self) -> usize {
-        let n = self.theta.len();
-        // wide vectors are for many: without this they would be compiled for few, too
-        if GROUP < 8 && n <= FEW {
-            match n {
-                // less arithmetic than waiting for it
-                1 => few::<T, V::One, 1>(&mut self),
-                2 => few::<T, V::One, 2>(&mut self),
-                3 => few::<T, V::One, 3>(&mut self),
-                4 => few::<T, V::One, 4>(&mut self),
-                _ => with_few!(n, few::<T, T>(&mut self)),
-            }
-            .unwrap_or(0)
-        } else {
-            many::<T, V, GROUP>(&mut self)
-        }
+    fn run<V: Vector<T>, const GROUP: usize>(self) -> usize {
+        all::<T, V, GROUP>(self.0)
     }
 }
 
-/// Whether a sample with this error and ‖φ‖² is one to use: not if either is NaN.
-#[inline(always)]
-fn accepts<T: Real>(error: T, squares: T) -> bool {
-    (error.abs() <= T::CEILING) & (squares <= T::CEILING)
-}
-
-impl<T: Real> Form<T> {
-    #[inline(always)]
-    fn leaves_out(self, squares: T) -> bool {
-        matches!(self, Self::Along { dead_zone, .. } if dead_zone.holds(squares))
-    }
-}
-
-/// For at most ten parameters: U, D and θ stay in registers.
-#[inline(always)]
-fn few<T: Real, A: One<T>, const N: usize>(task: &mut Steps<'_, T>) -> Option<usize> {
-    let Steps { place, form, phi, y, theta, told, thetas } = task;
-    let mut small = Small::<A, N>::load(place.columns, place.diagonal.first_chunk()?);
-    let theta = theta.first_chunk_mut::<N>()?;
-    let mut now = theta.map(A::splat);
-    let mut after = thetas.as_chunks_mut::<N>().0.iter_mut();
-    let mut taken = 0;
-    for ((f, &y), told) in phi.as_chunks::<N>().0.iter().zip(*y).zip(told.iter_mut()) {
-        let f = f.map(A::splat);
-        let (product, squares) = few_products(&f, &now);
-        let (error, squares) = (y - product.get(), squares.get());
-        if !accepts(error, squares) {
-            break;
-        }
-        if form.leaves_out(squares) {
-            *told = left_out(&small, error, &f);
-        } else {
-            let Some((gain, forgot)) = take(&mut small, place, *form, &f, squares) else {
-                break;
-            };
-            let step = A::splat(error) * gain.inverse_a;
-            for i in 0..N {
-                now[i] = step.mul_add(gain.k[i], now[i]);
-            }
-            let (leverage, largest) = (gain.s.get(), gain.largest.get());
-            *told = Told { error, leverage, largest, forgot, used: true, windup: false };
-        }
-        if let Some(after) = after.next() {
-            *after = now.map(One::get);
-        }
-        taken += 1;
-    }
-    *theta = now.map(One::get);
-    small.store(place.columns, place.diagonal.first_chunk_mut()?);
-    Some(taken)
-}
-
-/// A sample in the dead zone.
-#[inline(always)]
-fn left_out<T: Real, A: One<T>, const N: usize>(
-    small: &Small<A, N>,
-    error: T,
-    f: &[A; N],
-) -> Told<T> {
-    let (leverage, d) = (small.leverage(f).get(), small.d.map(One::get));
-    Told { error, leverage, largest: largest(&d), forgot: false, used: false, windup: false }
-}
-
-/// For more than ten: several at a time where that is possible.
+/// All of them, several at a time where that is possible.
 ///
 /// No closures hold what is long: they would be functions of their own, without the instructions
 /// that this one may use.
 #[inline(always)]
-fn many<T: Real, V: Vector<T>, const GROUP: usize>(task: &mut Steps<'_, T>) -> usize {
+fn all<T: Real, V: Vector<T>, const GROUP: usize>(task: &mut Steps<'_, T>) -> usize {
     let (most, mut taken) = (task.told.len().min(task.y.len()), 0);
     match task.form {
         Form::Scale { growth } => {
@@ -173,7 +82,7 @@ fn single<T: Real, V: Vector<T>, const GROUP: usize>(
         let largest = largest(place.diagonal);
         told[at] = Told { error, leverage, largest, forgot: false, used: false, windup: false };
     } else {
-        let measured = measure_many::<T, V, GROUP>(place, *form, f, squares)?;
+        let measured = measure::<T, V, GROUP>(place, *form, f, squares)?;
         add_scaled_by::<T, V>(theta, error * measured.inverse_variance, &place.scratch[..n]);
         told[at] = Told::used(error, &measured);
     }
@@ -190,7 +99,7 @@ fn batch<T: Real, V: Vector<T>, const GROUP: usize>(
 ) -> Option<()> {
     let Steps { place, phi, y, theta, told, thetas, .. } = task;
     let n = theta.len();
-    let (phi, y) = (&phi[at * n..(at + BATCH) * n], &y[at..at + BATCH]);
+    let (phi, y) = (&phi[at * n..], &y[at..at + BATCH]);
     let bound = (0..BATCH).fold(*place.bound, |bound, _| bound * growth);
     (bound < T::CEILING).then_some(())?;
     let mut room = batch::Room::of(place.scratch, n);
@@ -232,7 +141,7 @@ fn two<T: Real, V: Vector<T>, const GROUP: usize>(
 ) -> Option<()> {
     let Steps { place, form, phi, y, theta, told, thetas } = task;
     let n = theta.len();
-    let (phi, y) = (&phi[at * n..(at + 2) * n], &y[at..at + 2]);
+    let (phi, y) = (&phi[at * n..], &y[at..at + 2]);
     let mut room = along::Room::<T, 2, 4>::of(place.scratch, n);
     let arrival = arrive::<T, V, 2>(phi, theta, room.f);
     let [first, second] = arrival.squares;

@@ -1,0 +1,118 @@
+//! At most ten parameters: U, D and θ stay in registers.
+
+#![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
+
+use super::super::bierman::largest;
+use super::super::long::few_products;
+use super::super::measure::{along, scale};
+use super::super::small::Small;
+use super::super::Told;
+use super::{accepts, Steps};
+use crate::factor::Form;
+use crate::vector::Vector;
+use crate::{Kernel, One, Real};
+
+/// Takes samples of `N` parameters that forget in one form.
+pub struct Few<'a, 'b, T, const N: usize, const ALONG: bool>(pub &'b mut Steps<'a, T>);
+
+impl<T: Real, const N: usize, const ALONG: bool> Kernel<T> for Few<'_, '_, T, N, ALONG> {
+    type Output = usize;
+
+    #[inline(always)]
+    fn size(&self) -> usize {
+        N
+    }
+
+    #[inline(always)]
+    fn run<V: Vector<T>, const GROUP: usize>(self) -> usize {
+        // wide vectors are for many: without this they would be compiled for few, too
+        if GROUP >= 8 {
+            return 0;
+        }
+        // up to four there is less arithmetic than waiting for it
+        match N {
+            0..=4 => all::<T, V::One, N, ALONG>(self.0),
+            _ => all::<T, T, N, ALONG>(self.0),
+        }
+        .unwrap_or(0)
+    }
+}
+
+#[inline(always)]
+fn all<T: Real, A: One<T>, const N: usize, const ALONG: bool>(
+    task: &mut Steps<'_, T>,
+) -> Option<usize> {
+    let mut small = Small::<A, N>::load(task.place.columns, task.place.diagonal.first_chunk()?);
+    let mut theta = task.theta.first_chunk::<N>()?.map(A::splat);
+    let (most, mut taken) = (task.told.len().min(task.y.len()), 0);
+    while taken < most {
+        match some::<T, A, N, ALONG>(task, taken, &mut small, &mut theta) {
+            0 => break,
+            took => taken += took,
+        }
+    }
+    *task.theta.first_chunk_mut()? = theta.map(One::get);
+    small.store(task.place.columns, task.place.diagonal.first_chunk_mut()?);
+    Some(taken)
+}
+
+/// Samples from `at` on; none only if the next is none to take here.
+#[inline(always)]
+fn some<T: Real, A: One<T>, const N: usize, const ALONG: bool>(
+    task: &mut Steps<'_, T>,
+    at: usize,
+    small: &mut Small<A, N>,
+    theta: &mut [A; N],
+) -> usize {
+    let Steps { place, form, phi, y, told, thetas, .. } = task;
+    let mut after = thetas.get_mut(at * N..).unwrap_or_default().as_chunks_mut::<N>().0.iter_mut();
+    let samples = phi[at * N..].as_chunks::<N>().0.iter().zip(&y[at..]).zip(&mut told[at..]);
+    let (mut least, mut taken) = (small.least(), 0);
+    for ((f, &y), told) in samples {
+        let f = f.map(A::splat);
+        let (product, squares) = few_products(&f, theta);
+        let (error, squares) = (y - product.get(), squares.get());
+        if !accepts(error, squares) {
+            break;
+        }
+        if ALONG && form.leaves_out(squares) {
+            *told = left_out(small, error, &f);
+        } else {
+            let sample = (&f, squares);
+            let taken = match *form {
+                Form::Scale { growth } if !ALONG => {
+                    scale::<T, A, N, false>(small, place, growth, sample, least)
+                }
+                Form::Along { weight, .. } if ALONG => {
+                    along::<T, A, N, false>(small, place, weight, sample, least)
+                }
+                _ => None,
+            };
+            let Some((gain, forgot)) = taken else { break };
+            // D becomes no less than D / a
+            least *= gain.inverse_a.get();
+            let step = A::splat(error) * gain.inverse_a;
+            for i in 0..N {
+                theta[i] = step.mul_add(gain.k[i], theta[i]);
+            }
+            let (leverage, largest) = (gain.s.get(), gain.largest.get());
+            *told = Told { error, leverage, largest, forgot, used: true, windup: false };
+        }
+        if let Some(after) = after.next() {
+            *after = theta.map(One::get);
+        }
+        taken += 1;
+    }
+    taken
+}
+
+/// A sample in the dead zone.
+#[inline(always)]
+fn left_out<T: Real, A: One<T>, const N: usize>(
+    small: &Small<A, N>,
+    error: T,
+    f: &[A; N],
+) -> Told<T> {
+    let (leverage, d) = (small.leverage(f).get(), small.d.map(One::get));
+    Told { error, leverage, largest: largest(&d), forgot: false, used: false, windup: false }
+}
