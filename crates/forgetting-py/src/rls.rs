@@ -286,7 +286,8 @@ impl Rls {
 
     /// Take a whole record, without Python in the loop and without holding the interpreter.
     ///
-    /// Equal, bit for bit, to one `update` a sample.
+    /// Equal to one `update` a sample: bit for bit up to ten parameters, to rounding above, where
+    /// several samples are taken together.
     ///
     /// Parameters
     /// ----------

@@ -191,8 +191,9 @@ where
     ///
     /// It takes none where it has more to do than to forget, measure and correct (a variable rate,
     /// a gate, …), and stops before a sample that it cannot use: [`Estimator::update`]
-    /// takes the next one or says what is wrong with it. The bits are those of as many calls of
-    /// that. `thetas` has room for n numbers a sample, θ after it, or is empty.
+    /// takes the next one or says what is wrong with it. The result is that of as many calls of
+    /// that: bit for bit up to ten parameters, to rounding above. `thetas` has room for n numbers a
+    /// sample, θ after it, or is empty.
     #[inline]
     pub fn advance(
         &mut self,

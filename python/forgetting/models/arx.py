@@ -119,7 +119,7 @@ class ARX(Parameters):
         return self
 
     def partial_fit(self, u: ArrayLike | None, y: ArrayLike) -> ARX:
-        """Go on with the next rows; any split of a record gives the same bits as one `fit`.
+        """Go on with the next rows; any split of a record gives the same as one `fit`.
 
         Parameters and errors are those of `fit`; the first call is `fit`. The last `Orders.reach`
         rows are kept, so the lags reach across calls.

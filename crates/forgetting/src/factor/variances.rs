@@ -4,7 +4,8 @@ use super::kernel::place;
 use crate::vector::Vector;
 use crate::{Kernel, Real};
 
-/// Writes P_ii = Σ_k U_ik D_k U_ik to `variances`, column by column.
+/// Writes P_ii = Σ_k U_ik D_k U_ik to `variances`, column by column, rounded as single elements
+/// of P are.
 pub(super) struct Variances<'a, T> {
     pub columns: &'a [T],
     pub diagonal: &'a [T],
@@ -30,11 +31,11 @@ impl<T: Real> Kernel<T> for Variances<'_, T> {
             let (whole, scale) = (variances.len().min(k / T::ROWS + 1), V::splat(d));
             for (i, variance) in variances[..whole].iter_mut().enumerate() {
                 let u = V::load(&T::chunks(piece(i)).0[0]);
-                (u * scale).mul_add(u, V::load(variance)).store(variance);
+                (V::load(variance) + u * scale * u).store(variance);
             }
             if k / T::ROWS == variances.len() {
                 for (variance, &u) in rest.iter_mut().zip(piece(whole)) {
-                    *variance = (u * d).mul_add(u, *variance);
+                    *variance += u * d * u;
                 }
             }
         }

@@ -59,14 +59,20 @@ impl<T: Real> Kernel<T> for AgeeTurner<'_, T> {
             (t, scalars) = pass(&triangle(block, b), &mut d, x.eight(b), t);
             put_eight(self.diagonal, b, &d);
             let Scalars { slope, less_s, kept } = &scalars;
-            // from here on more than a quarter of the digits of u would be lost
-            if kept.iter().any(|&kept| kept < T::EPSILON.sqrt()) {
+            if loses_digits(kept) {
                 add_up(block, b, &mut x, &scalars);
             } else {
                 eliminate::<T, V, GROUP>(block, &mut x, (slope, less_s));
             }
         }
     }
+}
+
+/// Whether as a difference a column would lose more than half of its digits. Up to there it is the
+/// better way: next to what is added to it, it is not rounded.
+#[inline(always)]
+fn loses_digits<T: Real, const C: usize>(kept: &[T; C]) -> bool {
+    kept.iter().fold(false, |any, &kept| any | (kept < T::EPSILON.sqrt()))
 }
 
 /// What to do with each column.
@@ -141,11 +147,15 @@ fn few<T: Real, const N: usize>(task: &mut AgeeTurner<'_, T>) {
     };
     let mut small = Small::<T, N>::load(columns, d);
     let (_, Scalars { slope, less_s, kept }) = pass(&small.u, &mut small.d, x, T::ONE / *c);
+    let sum = loses_digits(&kept);
     for c in (0..N).rev() {
         for i in 0..c {
             let (before, rest) = (small.u[c][i], x[i]);
             x[i] = less_s[c].mul_add(before, rest);
-            small.u[c][i] = slope[c].mul_add(rest, kept[c] * before);
+            small.u[c][i] = match sum {
+                true => slope[c].mul_add(rest, kept[c] * before),
+                false => slope[c].mul_add(x[i], before),
+            };
         }
     }
     small.store(columns, d);
