@@ -1,4 +1,4 @@
-//! Bierman's update with unit variance: P⁻¹ ← P⁻¹ + fᵀf, for more than eight parameters.
+//! Bierman's update with unit variance: P⁻¹ ← P⁻¹ + fᵀf, for more than ten parameters.
 //!
 //! ```text
 //! for each column j of U:   w = f_j + u·f,  v = D_j w,  a' = a + w v
