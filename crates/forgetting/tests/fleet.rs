@@ -211,6 +211,41 @@ fn a_stream_at_the_end_of_the_range_does_what_an_estimator_does() {
     }
 }
 
+/// Regressors of every size bring D to its floor and its columns to every length: P becomes no larger.
+fn a_measurement_adds_nothing<T: Real>(n: usize) {
+    let mut fleet = fleet::<T>("none", n, 1.0);
+    let size = 0.48 * T::CEILING.to_f64().log10();
+    for step in 0..40 {
+        let number = |i: usize| {
+            let (k, silent) = (step * 7919 + 3 * i, noise(i + step) > 0.3);
+            if silent {
+                0.0
+            } else {
+                noise(k).signum() * 10f64.powf(size * noise(k + 1))
+            }
+        };
+        let phi: Vec<T> = (0..COUNT * n).map(|i| T::from_f64(number(i))).collect();
+        let before: Vec<_> = (0..COUNT).map(|i| fleet.get(i).factor().trace().to_f64()).collect();
+        let told = Told { error: None, leverage: None, skipped: None };
+        let y = vec![T::ONE; COUNT];
+        fleet.update(Samples { phi: &phi, y: &y, mask: None }, told).unwrap();
+        for (i, before) in before.iter().enumerate() {
+            let (stream, most) = (fleet.get(i), before * (1.0 + 1e-3));
+            let trace = stream.factor().trace().to_f64();
+            assert!(stream.is_sound(), "n = {n}, stream {i}, step {step}: {:?}", stream.factor());
+            assert!(trace <= most, "n = {n}, stream {i}, step {step}: {trace:e} > {most:e}");
+        }
+    }
+}
+
+#[test]
+fn at_the_floor_of_d_a_measurement_adds_nothing() {
+    for n in [2, 5, 8, 9, 12, 17] {
+        a_measurement_adds_nothing::<f64>(n);
+        a_measurement_adds_nothing::<f32>(n);
+    }
+}
+
 #[test]
 fn a_hundred_thousand_silent_samples_in_f32() {
     for rule in ["subspace", "none"] {

@@ -74,12 +74,14 @@ impl<M: Memory> Factor<M> {
         factor
     }
 
-    /// Whether D and P are within range: whether this is a positive definite P. O(n²).
+    /// Whether U is triangular, and D and P are within range: whether this is a positive definite P.
+    /// O(n²).
     pub fn is_sound(&self) -> bool {
         let in_range = |d: &M::Real| *d >= M::Real::FLOOR && *d <= M::Real::CEILING;
         let n = M::Real::from_f64(self.parameters() as f64);
         self.diagonal.as_ref().iter().all(in_range)
             && self.trace() <= n * M::Real::CEILING
+            && kernel::is_unit_triangular(self.columns.as_ref(), self.parameters())
             && self.trace_bound.is_finite()
     }
 

@@ -1,11 +1,13 @@
 //! The bound of P's trace, from which overflow is foreseen, bounds it after every sample.
 
 use crate::subjects::{subjects, update, Subject};
+use forgetting::factor::kernel::Told;
 use forgetting::factor::Factor;
 use forgetting::state::Visitor;
 use forgetting::{Dynamic, Noise, Real};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
+use std::ops::RangeInclusive;
 
 /// 0, ordinary numbers, and numbers of every size of which the square is accepted.
 fn number() -> impl Strategy<Value = f64> {
@@ -29,12 +31,15 @@ struct Trial {
     regressors: Vec<Vec<f64>>,
 }
 
-fn trial() -> impl Strategy<Value = Trial> {
-    let numbers = prop::collection::vec(number(), 30);
+fn trial(
+    parameters: RangeInclusive<usize>,
+    rows: RangeInclusive<usize>,
+) -> impl Strategy<Value = Trial> {
+    let numbers = prop::collection::vec(number(), parameters.end() * rows.end());
     let factor = prop_oneof![0.5..1.0f64, 1e-12..0.5f64, Just(1e-30)];
     let regressors = prop::collection::vec(numbers, 1..40);
     let variance = prop_oneof![-0.1..0.1f64, -0.95..0.95f64];
-    (2..=10usize, 1..=3usize, variance, factor, regressors).prop_map(
+    (parameters, rows, variance, factor, regressors).prop_map(
         |(n, p, variance, forgetting_factor, regressors)| Trial {
             sizes: (n, p),
             variance,
@@ -64,7 +69,8 @@ fn check_bound<T: Real>(factor: &Factor<Dynamic<T>>, of: &str) {
     assert!(bound >= 0.5 * trace, "{of}: a trace of {trace:e} is not below {bound:e}: {factor:?}");
 }
 
-fn check<T: Real>(subject: &Subject, trial: &Trial) {
+/// Takes samples one by one, or several in one go where the estimator can.
+fn check<T: Real>(subject: &Subject, trial: &Trial, in_one_go: usize) {
     let ((n, p), ceiling) = (trial.sizes, T::CEILING.to_f64());
     let variance = ceiling.powf(trial.variance);
     let estimator = subject.estimator::<T>((n, p, 1), trial.forgetting_factor, variance);
@@ -74,11 +80,20 @@ fn check<T: Real>(subject: &Subject, trial: &Trial) {
     // of as many sizes in any number type
     let scale = ceiling.log10() / f64::CEILING.log10();
     let real = |x: &f64| T::from_f64(x.signum() * x.abs().powf(scale));
-    for (k, regressors) in trial.regressors.iter().enumerate() {
-        let phi: Vec<T> = regressors[..p * n].iter().map(real).collect();
-        // a sample may be refused, but not break anything
-        let _ = update(&mut estimator, &phi, &vec![T::ONE; p], Noise::Unit);
-        check_bound(estimator.factor(), &format!("{subject:?}, sample {k}"));
+    let samples = trial.regressors.iter().flat_map(|row| &row[..p * n]);
+    let phi: Vec<T> = samples.map(real).collect();
+    let (y, mut k) = (vec![T::ONE; in_one_go.max(p)], 0);
+    while k < trial.regressors.len() {
+        let most = in_one_go.min(trial.regressors.len() - k);
+        let mut told = vec![Told::default(); most];
+        let taken = estimator.advance(&phi[k * p * n..], &y[..most], &mut told, &mut []);
+        if taken == 0 {
+            // a sample may be refused, but not break anything
+            let sample = &phi[k * p * n..][..p * n];
+            let _ = update(&mut estimator, sample, &y[..p], Noise::Unit);
+        }
+        k += taken.max(1);
+        check_bound(estimator.factor(), &format!("{subject:?}, before sample {k}"));
     }
 }
 
@@ -86,10 +101,26 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 300, rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() })]
 
     #[test]
-    fn the_trace_stays_below_its_bound(trial in trial()) {
+    fn the_trace_stays_below_its_bound(trial in trial(2..=10, 1..=3)) {
         for subject in subjects() {
-            check::<f64>(&subject, &trial);
-            check::<f32>(&subject, &trial);
+            check::<f64>(&subject, &trial, 0);
+            check::<f32>(&subject, &trial, 0);
+        }
+    }
+
+    #[test]
+    fn the_trace_of_many_parameters_stays_below_its_bound(trial in trial(11..=20, 1..=3)) {
+        for subject in subjects() {
+            check::<f64>(&subject, &trial, 0);
+            check::<f32>(&subject, &trial, 0);
+        }
+    }
+
+    #[test]
+    fn the_trace_stays_below_its_bound_in_one_go(trial in trial(11..=20, 1..=1)) {
+        for subject in subjects() {
+            check::<f64>(&subject, &trial, 8);
+            check::<f32>(&subject, &trial, 8);
         }
     }
 }

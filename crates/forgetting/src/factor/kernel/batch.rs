@@ -12,7 +12,9 @@
 //! ```
 //!
 //! The g are what the errors need, too: e_l = y_l − φ_l θ − Σ_{m<l} g_ml e_m / a_m with the θ of
-//! before. Numbers are rounded in another order than those of samples one by one.
+//! before. Numbers are rounded in another order than those of samples one by one, and digits are
+//! lost where a sample before takes most of what w was: not so many that it matters, as long as
+//! rounding fᵀPf with the P of before costs less than the variance of the noise ([`keeps_digits`]).
 
 use super::bierman::{above_floor, largest_of, Chain};
 use super::layout::BLOCK;
@@ -21,7 +23,7 @@ use super::tile::{
 };
 use crate::factor::Measured;
 use crate::vector::Vector;
-use crate::{Eight, Real};
+use crate::{Eight, Lane, Real};
 
 /// The samples of a batch.
 pub const BATCH: usize = 4;
@@ -41,6 +43,12 @@ pub struct Room<'a, T: Real> {
     d: &'a mut [PerColumn<T>],
 }
 
+/// Whether rounding fᵀPf does less than the variance of the noise.
+#[inline(always)]
+pub fn keeps_digits<T: Real>(leverage: T) -> bool {
+    leverage * T::EPSILON <= T::ONE
+}
+
 /// Uᵀf, then what becomes of it.
 const W_THEN_SLOPE: usize = 0;
 const V: usize = 1;
@@ -57,16 +65,29 @@ impl<'a, T: Real> Room<'a, T> {
         Self { f, k, changes, d: &mut rest[..blocks] }
     }
 
-    /// Finds w of all samples, with the U of before them, and D.
+    /// Finds w of all samples, with the U of before them, and D; the fᵀPf of each with the P of
+    /// before.
     #[inline(always)]
-    pub fn look<V: Vector<T>, const GROUP: usize>(&mut self, columns: &[T], diagonal: &[T]) {
+    pub fn look<V: Vector<T>, const GROUP: usize>(
+        &mut self,
+        columns: &[T],
+        diagonal: &[T],
+    ) -> PerSample<T> {
+        let mut leverages = [V::Eight::splat(T::ZERO); BATCH];
         for (b, (d, changes)) in self.d.iter_mut().zip(&mut *self.changes).enumerate() {
             *d = eight(diagonal, b, beyond());
             let w = dots_beside::<T, V, GROUP, BATCH>(block(columns, b), self.f);
-            for (changes, w) in changes.iter_mut().zip(w) {
-                changes[W_THEN_SLOPE] = w;
+            for l in 0..BATCH {
+                changes[l][W_THEN_SLOPE] = w[l];
+                let (d, w) = (V::Eight::read(d), V::Eight::read(&w[l]));
+                leverages[l] = (d * w).mul_add(w, leverages[l]);
             }
         }
+        let mut sums = [T::ZERO; BATCH];
+        for l in 0..BATCH {
+            sums[l] = leverages[l].running_sums().last().numbers()[0];
+        }
+        sums
     }
 
     /// P ← `growth`·P, then P⁻¹ ← P⁻¹ + fᵀf, for sample L after those before it, column by column;

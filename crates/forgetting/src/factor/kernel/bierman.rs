@@ -58,7 +58,8 @@ impl<E> Chain<E> {
         let a = first + sums;
         let before = a.before(first);
         let slope = -w / before;
-        let d = (d * before) / a;
+        // the ratio first: D may be as large as a number gets, and a as the square of one
+        let d = d * (before / a);
         self.0 = (self.0 + sums).last();
         Pass { d, slope, v, a }
     }

@@ -111,6 +111,14 @@ pub fn set_identity<T: Real>(columns: &mut [T], n: usize) {
     }
 }
 
+/// Whether U has its ones on the diagonal and its zeros below.
+pub fn is_unit_triangular<T: Real>(columns: &[T], n: usize) -> bool {
+    (0..n).all(|j| {
+        let from_diagonal = &columns[place::<T>(j, j)..][..T::ROWS - j % T::ROWS];
+        from_diagonal[0] == T::ONE && from_diagonal[1..].iter().all(|&u| u == T::ZERO)
+    })
+}
+
 /// Shows the numbers above the diagonal, column by column.
 pub fn visit<T: Real>(columns: &mut [T], n: usize, visitor: &mut dyn Visitor<T>) {
     for j in 0..n {

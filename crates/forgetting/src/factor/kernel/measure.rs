@@ -5,7 +5,7 @@ use super::along::Room;
 use super::bierman::{self, largest};
 use super::layout::FEW;
 use super::long::add_scaled_by;
-use super::small::{far_from_floor, Gain, Small};
+use super::small::{floor::far_before, Gain, Small};
 use crate::factor::{Form, Measured};
 use crate::vector::Vector;
 use crate::{Kernel, One, Real};
@@ -108,7 +108,7 @@ pub fn scale<T: Real, A: One<T>, const N: usize, const NEAR: bool>(
     (f, squares): (&[A; N], T),
     least: T,
 ) -> Option<(Gain<A, N>, bool)> {
-    let far = |trace| NEAR || far_from_floor(least, trace, squares);
+    let far = |trace| NEAR || far_before(least, trace, squares);
     let trace = *place.bound * growth;
     (trace < T::CEILING && far(trace)).then(|| *place.bound = trace)?;
     let gain = small.scale_and_measure::<T, NEAR>(A::splat(growth), f);
@@ -124,7 +124,7 @@ pub fn along<T: Real, A: One<T>, const N: usize, const NEAR: bool>(
     (f, squares): (&[A; N], T),
     least: T,
 ) -> Option<(Gain<A, N>, bool)> {
-    let far = |trace| NEAR || far_from_floor(least, trace, squares);
+    let far = |trace| NEAR || far_before(least, trace, squares);
     let (one, zero) = (A::splat(T::ONE), A::splat(T::ZERO));
     let mut along = small.along(f);
     let information = along.information.get();

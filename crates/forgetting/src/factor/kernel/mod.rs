@@ -52,8 +52,8 @@ mod triangular;
 #[cfg(feature = "alloc")]
 pub(crate) use layout::BLOCK;
 pub use layout::{
-    capacity, column, get_column, length, most, place, put_column, scratch, set_identity, visit,
-    FEW,
+    capacity, column, get_column, is_unit_triangular, length, most, place, put_column, scratch,
+    set_identity, visit, FEW,
 };
 pub(crate) use long::{add_scaled_by, dot_of};
 pub(crate) use measure::{Measure, Place};

@@ -10,6 +10,17 @@ use crate::{Eight, Real};
 type Shared<E> = [E; 2];
 
 impl<T: Real, const B: usize, const R: usize> Room<'_, T, B, R> {
+    /// fᵀPf of sample l, with the P of before.
+    #[inline(always)]
+    pub fn leverage<E: Eight<T>>(&self, l: usize) -> T {
+        let mut sum = E::splat(T::ZERO);
+        for (all, own) in self.of_all.iter().zip(&*self.of_one) {
+            let w = E::read(&own[l][W]);
+            sum = (E::read(&all[D]) * w).mul_add(w, sum);
+        }
+        sum.running_sums().last().numbers()[0]
+    }
+
     /// fᵀP⁻¹f of sample L, after what the first sample does.
     #[inline(always)]
     pub fn information<E: Eight<T>, const L: usize>(&mut self) -> T {

@@ -3,6 +3,7 @@
 
 use super::{accepts, adds, make_room, report, rows, Abreast, Advance, Fate, Form, Line};
 use super::{Outcome, Real};
+use crate::factor::kernel::small::floor;
 use crate::fleet::Layout;
 
 /// How many lines for each parameter a block needs to work with.
@@ -45,6 +46,7 @@ struct Work<'a, T: Real> {
     inverse: &'a mut [Line<T>],
     k: &'a mut [Line<T>],
     z: &'a mut [Line<T>],
+    /// z / D, then the shares of [`floor`]
     q: &'a mut [Line<T>],
     slope: &'a mut [Line<T>],
     x: &'a mut [Line<T>],
@@ -63,6 +65,8 @@ struct Columns<'a, T: Real> {
 struct Measured<A> {
     s: A,
     inverse_a: A,
+    /// whether columns of U are yet to become as short as [`Work::q`] says
+    lifted: bool,
 }
 
 #[inline(always)]
@@ -245,6 +249,7 @@ impl<T: Real> Columns<'_, T> {
             }
             put(work.k, c, v);
         }
+        self.narrow(work, &measured, used);
         measured
     }
 
@@ -314,6 +319,7 @@ impl<T: Real> Columns<'_, T> {
             put(work.x, c, z);
             put(work.k, c, v);
         }
+        self.narrow(work, &measured, used);
         measured
     }
 
@@ -321,7 +327,7 @@ impl<T: Real> Columns<'_, T> {
     #[inline(always)]
     fn chain<A: Abreast<T>>(&mut self, work: &mut Work<'_, T>, used: A::Mask) -> Measured<A> {
         let (one, mut s) = (A::splat(T::ONE), A::splat(T::ZERO));
-        let (mut a, mut inverse_a) = (one, one);
+        let (mut a, mut inverse_a, mut least) = (one, one, A::splat(T::CEILING));
         for c in 0..self.n {
             let (d, w): (A, A) = (get(work.d, c), get(work.w, c));
             let v = d * w;
@@ -330,11 +336,52 @@ impl<T: Real> Columns<'_, T> {
             put(work.v, c, v);
             put(work.inverse, c, inverse_a);
             inverse_a = one / next;
-            let after = (d * (a * inverse_a)).max(A::splat(T::FLOOR));
+            let after = d * (a * inverse_a);
+            least = least.min(after);
             self.put(self.layout.diagonal() + c, after, used);
             a = next;
         }
-        Measured { s, inverse_a }
+        let lifted = !A::all(floor::far_after(least, a));
+        if lifted {
+            self.lift(work, (a, inverse_a), used);
+        }
+        Measured { s, inverse_a, lifted }
+    }
+
+    /// D, just measured, at the floor where it is below.
+    #[inline(always)]
+    fn lift<A: Abreast<T>>(
+        &mut self,
+        work: &mut Work<'_, T>,
+        (a, mut inverse_after): (A, A),
+        used: A::Mask,
+    ) {
+        for c in (0..self.n).rev() {
+            let inverse: A = get(work.inverse, c);
+            let (at, w) = (self.layout.diagonal() + c, get(work.w, c));
+            let column = floor::Column { d: self.get(at), w, v: get(work.v, c), inverse };
+            let (column, share) = column.lift(inverse_after, a);
+            self.put(at, column.d, used);
+            put(work.w, c, column.w);
+            put(work.inverse, c, column.inverse);
+            put(work.q, c, share);
+            inverse_after = inverse;
+        }
+    }
+
+    /// The columns of which D was lifted add to P what they added before.
+    #[inline(always)]
+    fn narrow<A: Abreast<T>>(&mut self, work: &Work<'_, T>, measured: &Measured<A>, used: A::Mask) {
+        if !measured.lifted {
+            return;
+        }
+        for c in 0..self.n {
+            let share: A = get(work.q, c);
+            for i in 0..c {
+                let at = self.layout.column(c) + i;
+                self.put(at, self.get::<A>(at) * share, used);
+            }
+        }
     }
 
     /// θ ← θ + step·k.

@@ -2,7 +2,7 @@
 
 use super::super::along;
 use super::super::arrival::{arrive, correct};
-use super::super::batch::{self, BATCH};
+use super::super::batch::{self, keeps_digits, BATCH};
 use super::super::bierman::largest;
 use super::super::long::{add_scaled_by, products};
 use super::super::measure::{adds, many as measure};
@@ -104,7 +104,11 @@ fn batch<T: Real, V: Vector<T>, const GROUP: usize>(
     (bound < T::CEILING).then_some(())?;
     let mut room = batch::Room::of(place.scratch, n);
     let arrival = arrive::<T, V, BATCH>(phi, theta, room.f);
-    room.look::<V, GROUP>(place.columns, place.diagonal);
+    let (leverages, grown) =
+        (room.look::<V, GROUP>(place.columns, place.diagonal), bound / *place.bound);
+    for leverage in &leverages[1..] {
+        keeps_digits(*leverage * grown).then_some(())?;
+    }
     let mut shared = [[T::ZERO; BATCH]; BATCH];
     let measured = [
         room.scale_and_measure::<V::Eight, 0>(growth, &mut shared[0])?,
@@ -147,10 +151,12 @@ fn two<T: Real, V: Vector<T>, const GROUP: usize>(
     let [first, second] = arrival.squares;
     (!form.leaves_out(first) && !form.leaves_out(second)).then_some(())?;
     room.look::<V, GROUP>(place.columns, place.diagonal);
-    let mut bound = *place.bound;
+    let (mut bound, leverage) = (*place.bound, room.leverage::<V::Eight>(1));
 
     let information = room.information::<V::Eight, 0>();
-    bound += more(weight, information, first)?;
+    let added = more(weight, information, first)?;
+    keeps_digits(leverage + added * second).then_some(())?;
+    bound += added;
     let (measured, _, above) = room.add_and_measure::<V::Eight, 0>(information / weight);
     let error = y[0] - arrival.predicted[0];
     let step = error * measured.inverse_variance;

@@ -15,6 +15,8 @@
 use super::layout::place;
 use crate::{Lane, One, Real};
 
+pub mod floor;
+
 /// U above its diagonal, by columns, and D.
 #[derive(Clone, Copy)]
 pub struct Small<A, const N: usize, U = [[A; N]; N]> {
@@ -84,7 +86,7 @@ struct Chain<A, const N: usize> {
 }
 
 impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
-    /// P ← `growth`·P, then P⁻¹ ← P⁻¹ + fᵀf. `NEAR` is false if [`far_from_floor`] is known.
+    /// P ← `growth`·P, then P⁻¹ ← P⁻¹ + fᵀf. `NEAR` is false if [`floor::far_before`] is known.
     #[inline(always)]
     pub fn scale_and_measure<T: Real, const NEAR: bool>(
         &mut self,
@@ -223,9 +225,9 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
     where
         A: Lane<T>,
     {
-        let (one, zero, floor) = (A::splat(T::ONE), A::splat(T::ZERO), A::splat(T::FLOOR));
+        let (one, zero) = (A::splat(T::ONE), A::splat(T::ZERO));
         let (mut v, mut inverse, mut s) = ([zero; N], [one; N], zero);
-        let (mut largest, mut least) = (floor, A::splat(T::CEILING));
+        let (mut largest, mut least) = (A::splat(T::FLOOR), A::splat(T::CEILING));
         let (mut a, mut inverse_a) = (one, one);
         for c in 0..N {
             let d = self.d[c];
@@ -242,8 +244,7 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
             s = w[c].mul_add(v[c], s);
         }
         let mut chain = Chain { v, inverse, s, a, inverse_a, largest, shares: None };
-        let within = A::both(floor.at_most(least), a.at_most(A::splat(T::CEILING)));
-        if NEAR && !A::all(within) {
+        if NEAR && !A::all(floor::far_after(least, a)) {
             (self.d, *w, chain) = lift(self.d, *w, chain);
         }
         chain
@@ -266,12 +267,7 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
     }
 }
 
-/// D, just measured, at the floor where it is below, and what to multiply its columns with; and w
-/// divided where w k could be too large for a number. Else the reciprocals come last, when the products
-/// wait for them.
-///
-/// A column of U may be as long as D is small: lifting D alone would add to P whatever the floor
-/// is times the square of that length. So the column becomes √(D/floor) of what it is.
+/// D, just measured, at the floor where it is below.
 ///
 /// It takes and returns values, so that they may stay in registers elsewhere.
 #[inline(always)]
@@ -280,32 +276,16 @@ fn lift<T: Real, A: Lane<T>, const N: usize>(
     mut w: [A; N],
     mut chain: Chain<A, N>,
 ) -> ([A; N], [A; N], Chain<A, N>) {
-    let (one, floor) = (A::splat(T::ONE), A::splat(T::FLOOR));
-    let small = chain.a.at_most(A::splat(T::CEILING));
-    let (mut shares, mut inverse_a) = ([one; N], chain.inverse_a);
+    let (mut shares, mut inverse_after) = ([A::splat(T::ONE); N], chain.inverse_a);
     for c in (0..N).rev() {
         let inverse = chain.inverse[c];
-        // from D as it was before: what is below the floor may be too small for a number
-        let share = (chain.v[c] / w[c] / floor) * (inverse_a / inverse);
-        // where w is 0, D is below the floor by no more than rounding, and there is no share
-        let lifted = A::both(d[c].less_than(floor), share.less_than(one));
-        shares[c] = A::select(lifted, share.sqrt(), one);
-        d[c] = d[c].max(floor);
-        w[c] = A::select(small, w[c], w[c] * inverse);
-        chain.inverse[c] = A::select(small, inverse, one);
-        inverse_a = inverse;
+        let column = floor::Column { d: d[c], w: w[c], v: chain.v[c], inverse };
+        let (column, share) = column.lift(inverse_after, chain.a);
+        (d[c], w[c], chain.inverse[c], shares[c]) = (column.d, column.w, column.inverse, share);
+        inverse_after = inverse;
     }
     chain.shares = Some(shares);
     (d, w, chain)
-}
-
-/// Whether a measurement leaves D above its floor, and the largest product within it a number, whatever
-/// the regressor with the squared length `squares`: D becomes no less than D / (1 + tr P ‖f‖²).
-#[inline(always)]
-pub fn far_from_floor<T: Real>(least: T, trace: T, squares: T) -> bool {
-    let leverage = trace * squares;
-    // with room for rounding
-    leverage < T::CEILING && T::FLOOR * (T::from_f64(4.0) * (T::ONE + leverage)) <= least
 }
 
 impl<A: Copy, const N: usize> Chain<A, N> {
@@ -379,52 +359,4 @@ where
         }
     }
     w
-}
-
-#[cfg(test)]
-mod tests {
-    use crate::factor::kernel::place;
-    use crate::{Dynamic, Factor, Real};
-
-    /// P with these columns above the diagonal and this D.
-    fn factor<const N: usize>(columns: &[&[f64]], diagonal: [f64; N]) -> Factor<Dynamic<f64>> {
-        let mut factor = Factor::scalar(Dynamic::new(N, 1, 1).unwrap(), 1.0).unwrap();
-        factor.diagonal.as_mut().copy_from_slice(&diagonal);
-        for (j, column) in columns.iter().enumerate() {
-            for (i, &u) in column.iter().enumerate() {
-                factor.columns.as_mut()[place::<f64>(i, j)] = u;
-            }
-        }
-        factor
-    }
-
-    #[test]
-    fn a_measurement_adds_nothing_where_d_is_at_its_floor() {
-        let diagonal = [1.4058341593762096e-138, 0.008440921232922291, 4.440109184476592e-149];
-        let columns: [&[f64]; 3] = [&[], &[0.0], &[4.3556142965880123e40, 1.7335898988465585e73]];
-        let mut p = factor(&columns, diagonal);
-        p.add_information(&[1.5369708694062383e67, 7.561495892025367e19, 0.0], &mut [0.0; 3]);
-        // in exact arithmetic; the last D is then 1e-178, and its column 9e87 long
-        assert!((p.trace() / 0.008440921232922258 - 1.0).abs() < 1e-12, "{p:?}");
-        assert!(p.is_sound());
-    }
-
-    #[test]
-    fn d_at_its_floor_may_stay_where_nothing_is_measured() {
-        let floor = f64::FLOOR;
-        for size in [3.0, 7.0, 1e10, 3e60] {
-            let mut p = factor(&[&[], &[2.0], &[-2.0, 3.0]], [1.0, floor, floor]);
-            p.add_information(&[size, 0.0, 0.0], &mut [0.0; 3]);
-            assert!(p.is_sound() && p.trace() < 1.0, "{p:?}");
-        }
-    }
-
-    #[test]
-    fn products_within_a_measurement_are_finite() {
-        let mut p = factor(&[&[], &[0.0]], [f64::CEILING / 4.0; 2]);
-        for row in [[1e-75, 1e75], [1e75, 0.0], [0.0, 1e75]] {
-            p.add_information(&row, &mut [0.0; 2]);
-            assert!(p.is_sound(), "{p:?}");
-        }
-    }
 }
