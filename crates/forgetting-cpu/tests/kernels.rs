@@ -1,23 +1,20 @@
 //! The kernels with fused multiply-add: right, and the same bits on every level.
 
-#[path = "../../forgetting/tests/advance_against_updates/mod.rs"]
-mod advance_against_updates;
-#[path = "../../forgetting/tests/kernels_against_dense/mod.rs"]
-mod kernels_against_dense;
+#[path = "../../forgetting/tests/kernels/advance.rs"]
+mod advance;
+#[path = "../../forgetting/tests/kernels/against_dense.rs"]
+mod against_dense;
 
+use against_dense::{check, sizes};
 use forgetting_cpu::{level, Fused, Level, VARIABLE};
-use kernels_against_dense::{check, sizes};
 use std::process::Command;
 
 /// A hash of all results (FNV-1a), after they were compared with dense ones and with those of
 /// samples one by one.
 fn bits() -> u64 {
     let mut hash = 0xcbf2_9ce4_8422_2325u64;
-    for n in advance_against_updates::sizes() {
-        let states = [
-            advance_against_updates::check::<Fused<f64>>(n),
-            advance_against_updates::check::<Fused<f32>>(n),
-        ];
+    for n in advance::sizes() {
+        let states = [advance::check::<Fused<f64>>(n), advance::check::<Fused<f32>>(n)];
         for x in states.concat() {
             hash = (hash ^ x).wrapping_mul(0x0100_0000_01b3);
         }

@@ -155,23 +155,25 @@ pub fn many<T: Real, V: Vector<T>, const GROUP: usize>(
     f: &[T],
     squares: T,
 ) -> Option<Measured<T>> {
-    match form {
-        Form::Scale { growth } => {
-            make_room(place.bound, growth, T::ZERO)?;
-            Some(scale_many::<T, V, GROUP>(place, growth, f))
-        }
-        Form::Along { weight, .. } => along_many::<T, V, GROUP>(place, weight, f, squares),
-    }
+    let growth = match form {
+        Form::Scale { growth } => growth,
+        Form::Along { weight, .. } => match along_many::<T, V, GROUP>(place, weight, f, squares)? {
+            Some(measured) => return Some(measured),
+            None => T::ONE,
+        },
+    };
+    make_room(place.bound, growth, T::ZERO)?;
+    Some(scale_many::<T, V, GROUP>(place, growth, f))
 }
 
-/// Forgets along f, unless there is nothing to forget.
+/// Forgets along f and measures it; nothing where there is nothing to forget.
 #[inline(always)]
 fn along_many<T: Real, V: Vector<T>, const GROUP: usize>(
     place: &mut Place<'_, T>,
     weight: T,
     f: &[T],
     squares: T,
-) -> Option<Measured<T>> {
+) -> Option<Option<Measured<T>>> {
     let (n, (full, rest)) = (f.len(), T::chunks(f));
     let (gain, scratch) = place.scratch.split_at_mut(n.div_ceil(T::ROWS) * T::ROWS);
     let mut room = Room::<T, 1, 2>::of(scratch, n);
@@ -182,7 +184,7 @@ fn along_many<T: Real, V: Vector<T>, const GROUP: usize>(
     let information = room.information::<V::Eight, 0>();
     let c = weight / information;
     if !adds(c) {
-        return Some(scale_many::<T, V, GROUP>(place, T::ONE, f));
+        return Some(None);
     }
     make_room(place.bound, T::ONE, c * squares)?;
     let measured = room.add_and_measure::<V::Eight, 0>(information / weight).0;
@@ -190,7 +192,7 @@ fn along_many<T: Real, V: Vector<T>, const GROUP: usize>(
     for (t, to) in T::chunks_mut(gain).0.iter_mut().enumerate() {
         *to = *room.gain(0, t);
     }
-    Some(measured)
+    Some(Some(measured))
 }
 
 #[inline(always)]

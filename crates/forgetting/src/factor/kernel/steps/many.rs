@@ -37,28 +37,23 @@ impl<T: Real> Kernel<T> for Many<'_, '_, T> {
 #[inline(always)]
 fn all<T: Real, V: Vector<T>, const GROUP: usize>(task: &mut Steps<'_, T>) -> usize {
     let (most, mut taken) = (task.told.len().min(task.y.len()), 0);
-    match task.form {
-        Form::Scale { growth } => {
-            while most - taken >= BATCH {
-                taken += match batch::<T, V, GROUP>(task, taken, growth) {
-                    Some(()) => BATCH,
-                    None if single::<T, V, GROUP>(task, taken).is_some() => 1,
-                    None => return taken,
-                };
+    while taken < most {
+        let several = match task.form {
+            Form::Scale { growth } if most - taken >= BATCH => {
+                batch::<T, V, GROUP>(task, taken, growth)
             }
-        }
-        Form::Along { weight, .. } => {
-            while most - taken >= 2 {
-                taken += match two::<T, V, GROUP>(task, taken, weight) {
-                    Some(()) => 2,
-                    None if single::<T, V, GROUP>(task, taken).is_some() => 1,
-                    None => return taken,
-                };
+            Form::Along { weight, .. } if most - taken >= 2 => {
+                two::<T, V, GROUP>(task, taken, weight)
             }
-        }
-    }
-    while taken < most && single::<T, V, GROUP>(task, taken).is_some() {
-        taken += 1;
+            _ => None,
+        };
+        taken += match several {
+            Some(count) => count,
+            None => match single::<T, V, GROUP>(task, taken) {
+                Some(()) => 1,
+                None => break,
+            },
+        };
     }
     taken
 }
@@ -96,7 +91,7 @@ fn batch<T: Real, V: Vector<T>, const GROUP: usize>(
     task: &mut Steps<'_, T>,
     at: usize,
     growth: T,
-) -> Option<()> {
+) -> Option<usize> {
     let Steps { place, phi, y, theta, told, thetas, .. } = task;
     let n = theta.len();
     let (phi, y) = (&phi[at * n..], &y[at..at + BATCH]);
@@ -132,7 +127,7 @@ fn batch<T: Real, V: Vector<T>, const GROUP: usize>(
     }
     let thetas = thetas.get_mut(at * n..(at + BATCH) * n).unwrap_or_default();
     correct::<T, V, BATCH>(theta, &steps, |l, t| &room.k[t][l], thetas);
-    Some(())
+    Some(BATCH)
 }
 
 /// Two samples that forget along their regressors, in the same way; not where one is to be left
@@ -142,7 +137,7 @@ fn two<T: Real, V: Vector<T>, const GROUP: usize>(
     task: &mut Steps<'_, T>,
     at: usize,
     weight: T,
-) -> Option<()> {
+) -> Option<usize> {
     let Steps { place, form, phi, y, theta, told, thetas } = task;
     let n = theta.len();
     let (phi, y) = (&phi[at * n..], &y[at..at + 2]);
@@ -175,7 +170,7 @@ fn two<T: Real, V: Vector<T>, const GROUP: usize>(
     let steps = [step, later * after.inverse_variance];
     let thetas = thetas.get_mut(at * n..(at + 2) * n).unwrap_or_default();
     correct::<T, V, 2>(theta, &steps, |l, t| room.gain(l, t), thetas);
-    Some(())
+    Some(2)
 }
 
 /// What forgetting along a regressor with this information and ‖φ‖² adds to the trace of P, if it

@@ -1,8 +1,6 @@
 //! `constant_trace` against its published form, computed with dense matrices.
 
-mod dense_forms;
-
-use dense_forms::{records, worst, Dense, Published};
+use crate::forms::{records, worst, Dense, Published};
 use forgetting::rules::ConstantTrace;
 use forgetting::{Dynamic, Real};
 

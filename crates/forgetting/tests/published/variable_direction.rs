@@ -1,8 +1,6 @@
 //! `variable_direction` against the published form, computed with dense matrices.
 
-mod dense_forms;
-
-use dense_forms::{estimator, record, result, update, Dense, Input, Published, INPUTS};
+use crate::forms::{estimator, record, result, update, Dense, Input, Published, INPUTS};
 use forgetting::rules::VariableDirection;
 use forgetting::{Constant, Dynamic, Equal, Estimator, Prior, Real};
 

@@ -1,8 +1,6 @@
 //! `multiple` against its published form, computed with dense matrices.
 
-mod dense_forms;
-
-use dense_forms::{estimator, record, records, result, update, worst, Dense, Input, Published};
+use crate::forms::{estimator, record, records, result, update, worst, Dense, Input, Published};
 use forgetting::rules::Multiple;
 use forgetting::{Constant, Dynamic, Equal, Estimator, Prior, Real};
 

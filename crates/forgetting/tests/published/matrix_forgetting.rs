@@ -1,8 +1,6 @@
 //! `matrix_forgetting` against (S1)–(S3), computed with dense matrices.
 
-mod dense_forms;
-
-use dense_forms::{records, worst, Dense, Published};
+use crate::forms::{records, worst, Dense, Published};
 use forgetting::rules::MatrixForgetting;
 use forgetting::Dynamic;
 

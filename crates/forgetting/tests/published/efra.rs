@@ -1,8 +1,6 @@
 //! `efra` against its published form, computed with dense matrices.
 
-mod dense_forms;
-
-use dense_forms::{gain, records, worst, Dense, Published};
+use crate::forms::{gain, records, worst, Dense, Published};
 use forgetting::rules::Efra;
 use forgetting::{Dynamic, Real};
 

@@ -1,0 +1,8 @@
+//! Rules against their published forms, computed with dense matrices.
+
+mod constant_trace;
+mod efra;
+mod forms;
+mod matrix_forgetting;
+mod multiple;
+mod variable_direction;
