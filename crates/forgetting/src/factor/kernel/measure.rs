@@ -5,7 +5,7 @@ use super::along::Room;
 use super::bierman::{self, largest};
 use super::layout::FEW;
 use super::long::add_scaled_by;
-use super::small::{floor::far_before, Gain, Small};
+use super::small::{floor::far_before, Gain, Kept, Small, Unit};
 use crate::factor::{Form, Measured};
 use crate::vector::Vector;
 use crate::{Kernel, One, Real};
@@ -45,7 +45,7 @@ impl<T: Real> Kernel<T> for Measure<'_, T> {
         let Self { ref mut place, form, f, squares, .. } = self;
         // wide vectors are for many: without this they would be compiled for few, too
         let measured = if GROUP < 8 && n <= FEW {
-            with_few!(n, few::<T, T>(place, form, f, squares))?
+            with_few!(n, few::<T>(place, form, f, squares))?
         } else {
             many::<T, V, GROUP>(place, form, f, squares)?
         };
@@ -65,34 +65,26 @@ fn make_room<T: Real>(bound: &mut T, growth: T, added: T) -> Option<()> {
 
 /// For at most ten parameters.
 #[inline(always)]
-fn few<T: Real, A: One<T>, const N: usize>(
-    place: &mut Place<'_, T>,
+fn few<T: Real, const N: usize>(
+    Place { columns, diagonal, scratch, bound }: &mut Place<'_, T>,
     form: Form<T>,
     f: &[T],
     squares: T,
 ) -> Option<Measured<T>> {
-    let (f, d) = (f.first_chunk::<N>()?, place.diagonal.first_chunk::<N>()?);
-    let mut small = Small::<A, N>::load(place.columns, d);
-    let (f, least) = (f.map(A::splat), T::FLOOR);
+    let (f, d) = (f.first_chunk::<N>()?, diagonal.first_chunk_mut::<N>()?);
+    let (mut small, least) = (Small { u: Kept::of::<N>(columns), d: *d }, T::FLOOR);
     let (gain, forgot) = match form {
         Form::Scale { growth } => {
-            scale::<T, A, N, true>(&mut small, place, growth, (&f, squares), least)?
+            scale::<T, T, _, N, true>(&mut small, bound, growth, (f, squares), least)?
         }
         Form::Along { weight, .. } => {
-            along::<T, A, N, true>(&mut small, place, weight, (&f, squares), least)?
+            along::<T, T, _, N, true>(&mut small, bound, weight, (f, squares), least)?
         }
     };
-    small.store(place.columns, place.diagonal.first_chunk_mut()?);
-    for (k, gain) in place.scratch.iter_mut().zip(gain.k) {
-        *k = gain.get();
-    }
-    Some(Measured {
-        leverage: gain.s.get(),
-        variance: gain.a.get(),
-        inverse_variance: gain.inverse_a.get(),
-        largest: gain.largest.get(),
-        forgot,
-    })
+    *d = small.d;
+    scratch[..N].copy_from_slice(&gain.k);
+    let Gain { s: leverage, a: variance, inverse_a: inverse_variance, largest, .. } = gain;
+    Some(Measured { leverage, variance, inverse_variance, largest, forgot })
 }
 
 /// Scales P and measures f with the squared length `squares` in registers, unless there is no room;
@@ -101,25 +93,25 @@ fn few<T: Real, A: One<T>, const N: usize>(
 /// Unless `NEAR` it does nothing, either, where an element of D may come near its floor; all of them
 /// are at least `least`.
 #[inline(always)]
-pub fn scale<T: Real, A: One<T>, const N: usize, const NEAR: bool>(
-    small: &mut Small<A, N>,
-    place: &mut Place<'_, T>,
+pub fn scale<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const NEAR: bool>(
+    small: &mut Small<A, N, U>,
+    bound: &mut T,
     growth: T,
     (f, squares): (&[A; N], T),
     least: T,
 ) -> Option<(Gain<A, N>, bool)> {
     let far = |trace| NEAR || far_before(least, trace, squares);
-    let trace = *place.bound * growth;
-    (trace < T::CEILING && far(trace)).then(|| *place.bound = trace)?;
+    let trace = *bound * growth;
+    (trace < T::CEILING && far(trace)).then(|| *bound = trace)?;
     let gain = small.scale_and_measure::<T, NEAR>(A::splat(growth), f);
     Some((gain, growth > T::ONE))
 }
 
 /// The same with forgetting along f.
 #[inline(always)]
-pub fn along<T: Real, A: One<T>, const N: usize, const NEAR: bool>(
-    small: &mut Small<A, N>,
-    place: &mut Place<'_, T>,
+pub fn along<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const NEAR: bool>(
+    small: &mut Small<A, N, U>,
+    bound: &mut T,
     weight: T,
     (f, squares): (&[A; N], T),
     least: T,
@@ -130,12 +122,12 @@ pub fn along<T: Real, A: One<T>, const N: usize, const NEAR: bool>(
     let information = along.information.get();
     let c = weight / information;
     if !adds(c) {
-        far(*place.bound).then_some(())?;
+        far(*bound).then_some(())?;
         (along.z, along.q) = ([zero; N], [zero; N]);
         return Some((small.add_and_measure::<T, NEAR>((zero, one), &along, f), false));
     }
-    let trace = *place.bound + c * squares;
-    (trace < T::CEILING && far(trace)).then(|| *place.bound = trace)?;
+    let trace = *bound + c * squares;
+    (trace < T::CEILING && far(trace)).then(|| *bound = trace)?;
     let added = (A::splat(c), A::splat(information / weight));
     Some((small.add_and_measure::<T, NEAR>(added, &along, f), true))
 }

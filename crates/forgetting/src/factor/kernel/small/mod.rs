@@ -12,8 +12,9 @@
 
 #![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
 
-use super::layout::place;
+use super::layout::{length, place};
 use crate::{Lane, One, Real};
+use core::hint::black_box;
 
 pub mod floor;
 
@@ -45,6 +46,32 @@ impl<A: Copy, const N: usize> Unit<A, N> for [[A; N]; N] {
     }
     #[inline(always)]
     fn last_pass(&mut self, _: &[A; N]) {}
+}
+
+/// Where the factor keeps it: where there are more numbers than registers, a copy gains nothing.
+pub struct Kept<'a, T>(&'a mut [T]);
+
+impl<'a, T: Real> Kept<'a, T> {
+    /// U of N columns.
+    #[inline(always)]
+    pub fn of<const N: usize>(columns: &'a mut [T]) -> Self {
+        Self(&mut columns[..length::<T>(N)])
+    }
+}
+
+impl<T: Real, const N: usize> Unit<T, N> for Kept<'_, T> {
+    #[inline(always)]
+    fn get(&self, c: usize, i: usize) -> T {
+        self.0[place::<T>(i, c)]
+    }
+    #[inline(always)]
+    fn set(&mut self, c: usize, i: usize, u: T) {
+        self.0[place::<T>(i, c)] = u;
+    }
+    #[inline(always)]
+    fn last_pass(&mut self, _: &[T; N]) {
+        *self = Self::of::<N>(black_box(core::mem::take(&mut self.0)));
+    }
 }
 
 /// What measuring f brought.
@@ -103,20 +130,32 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
         let chain = self.chain::<T, NEAR>(&mut w);
         self.u.last_pass(&self.d);
         let mut k = [A::splat(T::ZERO); N];
-        for c in 0..N {
-            let less_w = -w[c];
-            for i in 0..c {
-                let before = self.u.get(c, i);
-                // the reciprocal comes last
-                self.u.set(c, i, (less_w * k[i]).mul_add(chain.inverse[c], before));
-                k[i] = chain.v[c].mul_add(before, k[i]);
-            }
-            k[c] = chain.v[c];
+        // two loops, here and below: the compiler does not unroll one over ten columns
+        for c in 0..N / 2 {
+            self.measured(c, (-w[c], chain.inverse[c], chain.v[c]), &mut k);
+        }
+        for c in N / 2..N {
+            self.measured(c, (-w[c], chain.inverse[c], chain.v[c]), &mut k);
         }
         if NEAR {
             self.narrow(&chain);
         }
         chain.gain(k)
+    }
+
+    /// Column c of U after the measurement, and k.
+    #[inline(always)]
+    fn measured<T: Real>(&mut self, c: usize, (less_w, inverse, v): (A, A, A), k: &mut [A; N])
+    where
+        A: Lane<T>,
+    {
+        for i in 0..c {
+            let before = self.u.get(c, i);
+            // the reciprocal comes last
+            self.u.set(c, i, (less_w * k[i]).mul_add(inverse, before));
+            k[i] = v.mul_add(before, k[i]);
+        }
+        k[c] = v;
     }
 
     /// f·P·fᵀ
@@ -140,17 +179,31 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
         A: Lane<T>,
     {
         let (mut z, mut q, mut information) = (*f, *f, A::splat(T::ZERO));
-        for c in (0..N).rev() {
-            let less_z = -z[c];
-            for i in 0..c {
-                z[i] = less_z.mul_add(self.u.get(c, i), z[i]);
-            }
+        for c in (N / 2..N).rev() {
+            self.eliminate(c, &mut z);
+        }
+        for c in (0..N / 2).rev() {
+            self.eliminate(c, &mut z);
+        }
+        for c in 0..N {
             q[c] = z[c] / self.d[c];
         }
         for c in (0..N).rev() {
             information = z[c].mul_add(q[c], information);
         }
         Along { z, q, information }
+    }
+
+    /// z without what column c holds of it.
+    #[inline(always)]
+    fn eliminate<T: Real>(&self, c: usize, z: &mut [A; N])
+    where
+        A: Lane<T>,
+    {
+        let less_z = -z[c];
+        for i in 0..c {
+            z[i] = less_z.mul_add(self.u.get(c, i), z[i]);
+        }
     }
 
     /// P ← P + c·fᵀf, then P⁻¹ ← P⁻¹ + fᵀf, with t = 1/c; where z and q are 0, c is 0 instead.
@@ -181,7 +234,6 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
         let chain = self.chain::<T, NEAR>(&mut w);
         self.u.last_pass(&self.d);
         let mut sums = [[zero; N]; 2];
-        // two loops: the compiler does not unroll one over ten columns
         for c in 0..N / 2 {
             let measured = (-w[c], chain.inverse[c], chain.v[c]);
             self.widened_and_measured(c, (slope[c], z[c]), measured, &mut sums);
@@ -296,7 +348,7 @@ impl<A: Copy, const N: usize> Chain<A, N> {
     }
 }
 
-impl<A: Copy, const N: usize> Small<A, N> {
+impl<A: Copy, const N: usize, U> Small<A, N, U> {
     /// The smallest element of D.
     #[inline(always)]
     pub fn least<T: Real>(&self) -> T
@@ -305,7 +357,9 @@ impl<A: Copy, const N: usize> Small<A, N> {
     {
         self.d.iter().fold(A::splat(T::CEILING), |least, &d| least.min(d)).get()
     }
+}
 
+impl<A: Copy, const N: usize> Small<A, N> {
     /// From the columns of U and from D.
     #[inline(always)]
     pub fn load<T: Real>(columns: &[T], diagonal: &[T; N]) -> Self
@@ -345,18 +399,34 @@ where
     U: Unit<A, N>,
 {
     let mut w = *f;
-    for c in 0..N {
-        let mut odd = A::splat(T::ZERO);
-        for i in 0..c {
-            if i % 2 == 0 {
-                w[c] = u.get(c, i).mul_add(f[i], w[c]);
-            } else {
-                odd = u.get(c, i).mul_add(f[i], odd);
-            }
-        }
-        if c > 1 {
-            w[c] = w[c] + odd;
-        }
+    for c in 0..N / 2 {
+        w[c] = dot(u, c, f);
+    }
+    for c in N / 2..N {
+        w[c] = dot(u, c, f);
     }
     w
+}
+
+/// An element of it.
+#[inline(always)]
+fn dot<T, A, U, const N: usize>(u: &U, c: usize, f: &[A; N]) -> A
+where
+    T: Real,
+    A: Lane<T>,
+    U: Unit<A, N>,
+{
+    let (mut even, mut odd) = (f[c], A::splat(T::ZERO));
+    for i in 0..c {
+        if i % 2 == 0 {
+            even = u.get(c, i).mul_add(f[i], even);
+        } else {
+            odd = u.get(c, i).mul_add(f[i], odd);
+        }
+    }
+    if c > 1 {
+        even + odd
+    } else {
+        even
+    }
 }

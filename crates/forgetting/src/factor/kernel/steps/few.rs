@@ -5,7 +5,7 @@
 use super::super::bierman::largest;
 use super::super::long::few_products;
 use super::super::measure::{along, scale};
-use super::super::small::Small;
+use super::super::small::{Kept, Small, Unit};
 use super::super::Told;
 use super::{accepts, Steps};
 use crate::factor::Form;
@@ -29,39 +29,60 @@ impl<T: Real, const N: usize, const ALONG: bool> Kernel<T> for Few<'_, '_, T, N,
         if GROUP >= 8 {
             return 0;
         }
-        // up to four there is less arithmetic than waiting for it
         match N {
-            0..=4 => all::<T, V::One, N, ALONG>(self.0),
-            _ => all::<T, T, N, ALONG>(self.0),
+            // there is less arithmetic than waiting for it
+            0..=4 => in_registers::<T, V::One, N, ALONG>(self.0),
+            _ => in_place::<T, N, ALONG>(self.0),
         }
         .unwrap_or(0)
     }
 }
 
+/// With U in registers.
 #[inline(always)]
-fn all<T: Real, A: One<T>, const N: usize, const ALONG: bool>(
+fn in_registers<T: Real, A: One<T>, const N: usize, const ALONG: bool>(
     task: &mut Steps<'_, T>,
 ) -> Option<usize> {
     let mut small = Small::<A, N>::load(task.place.columns, task.place.diagonal.first_chunk()?);
+    let taken = all::<T, A, _, N, ALONG>(task, &mut small)?;
+    small.store(task.place.columns, task.place.diagonal.first_chunk_mut()?);
+    Some(taken)
+}
+
+/// With U where it is kept.
+#[inline(always)]
+fn in_place<T: Real, const N: usize, const ALONG: bool>(task: &mut Steps<'_, T>) -> Option<usize> {
+    let d = *task.place.diagonal.first_chunk()?;
+    let u = Kept::of::<N>(core::mem::take(&mut task.place.columns));
+    let mut small = Small { u, d };
+    let taken = all::<T, T, _, N, ALONG>(task, &mut small)?;
+    *task.place.diagonal.first_chunk_mut()? = small.d;
+    Some(taken)
+}
+
+#[inline(always)]
+fn all<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const ALONG: bool>(
+    task: &mut Steps<'_, T>,
+    small: &mut Small<A, N, U>,
+) -> Option<usize> {
     let mut theta = task.theta.first_chunk::<N>()?.map(A::splat);
     let (most, mut taken) = (task.told.len().min(task.y.len()), 0);
     while taken < most {
-        match some::<T, A, N, ALONG>(task, taken, &mut small, &mut theta) {
+        match some::<T, A, U, N, ALONG>(task, taken, small, &mut theta) {
             0 => break,
             took => taken += took,
         }
     }
     *task.theta.first_chunk_mut()? = theta.map(One::get);
-    small.store(task.place.columns, task.place.diagonal.first_chunk_mut()?);
     Some(taken)
 }
 
 /// Samples from `at` on; none only if the next is none to take here.
 #[inline(always)]
-fn some<T: Real, A: One<T>, const N: usize, const ALONG: bool>(
+fn some<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const ALONG: bool>(
     task: &mut Steps<'_, T>,
     at: usize,
-    small: &mut Small<A, N>,
+    small: &mut Small<A, N, U>,
     theta: &mut [A; N],
 ) -> usize {
     let Steps { place, form, phi, y, told, thetas, .. } = task;
@@ -81,10 +102,10 @@ fn some<T: Real, A: One<T>, const N: usize, const ALONG: bool>(
             let sample = (&f, squares);
             let taken = match *form {
                 Form::Scale { growth } if !ALONG => {
-                    scale::<T, A, N, false>(small, place, growth, sample, least)
+                    scale::<T, A, U, N, false>(small, place.bound, growth, sample, least)
                 }
                 Form::Along { weight, .. } if ALONG => {
-                    along::<T, A, N, false>(small, place, weight, sample, least)
+                    along::<T, A, U, N, false>(small, place.bound, weight, sample, least)
                 }
                 _ => None,
             };
@@ -108,8 +129,8 @@ fn some<T: Real, A: One<T>, const N: usize, const ALONG: bool>(
 
 /// A sample in the dead zone.
 #[inline(always)]
-fn left_out<T: Real, A: One<T>, const N: usize>(
-    small: &Small<A, N>,
+fn left_out<T: Real, A: One<T>, U: Unit<A, N>, const N: usize>(
+    small: &Small<A, N, U>,
     error: T,
     f: &[A; N],
 ) -> Told<T> {
