@@ -98,6 +98,18 @@ impl<'a, T: Real> Work<'a, T> {
         }
     }
 
+    /// What is not `used` is to change no number, nor the sign of a zero: products of these zeros, and
+    /// sums with them, leave everything as it is.
+    #[inline(always)]
+    fn leave_out<A: Abreast<T>>(&mut self, used: A::Mask) {
+        let zero = A::splat(T::ZERO);
+        for i in 0..self.f.len() {
+            put(self.f, i, A::select(used, get(self.f, i), zero));
+            put(self.z, i, A::select(used, get(self.z, i), zero));
+            put(self.q, i, A::select(used, get(self.q, i), -zero));
+        }
+    }
+
     /// n numbers for each stream from `lane` on; zeros where there is none.
     #[inline(always)]
     fn regressors<A: Abreast<T>>(&mut self, phi: &[T], lane: usize) {
@@ -128,11 +140,9 @@ impl<T: Real> Columns<'_, T> {
         self.get(self.layout.diagonal() + column)
     }
 
-    /// Writes a number of the streams in `used`.
     #[inline(always)]
-    fn put<A: Abreast<T>>(&mut self, at: usize, new: A, used: A::Mask) {
-        let numbers = &mut self.lines[at].0.as_mut()[self.lane..];
-        A::select(used, new, A::read(numbers)).write(numbers);
+    fn put<A: Abreast<T>>(&mut self, at: usize, new: A) {
+        new.write(&mut self.lines[at].0.as_mut()[self.lane..]);
     }
 
     /// Takes a sample of each stream.
@@ -144,34 +154,41 @@ impl<T: Real> Columns<'_, T> {
         y: A,
         with_leverage: bool,
     ) -> Outcome<A> {
+        let (one, zero) = (A::splat(T::ONE), A::splat(T::ZERO));
         let (product, squares) = self.products(work);
         let error = y - product;
         let accepted = accepts(error, squares);
-        let bound = self.get(self.layout.bound());
-        let (measured, fate) = match form {
-            Form::Scale { .. } => {
-                let room = (strength, A::splat(T::ZERO));
-                let (bound, used) = make_room(bound, room, accepted, || self.trace());
-                self.put(self.layout.bound(), bound, used);
-                (self.scale(work, strength, used), Fate { accepted, informed: accepted, used })
-            }
+        let (informed, mut growth, (mut c, mut t), grown) = match form {
+            Form::Scale { .. } => (accepted, strength, (zero, one), (strength, zero)),
             Form::Along { dead_zone, .. } => {
+                let added @ (c, _) = self.look(work, strength);
                 let informed = A::both(accepted, dead_zone.leaves(squares));
-                let (c, t) = self.look(work, strength);
-                let room = (A::splat(T::ONE), c * squares);
-                let (bound, used) = make_room(bound, room, informed, || self.trace());
-                self.put(self.layout.bound(), bound, used);
-                (self.widen(work, (c, t), used), Fate { accepted, informed, used })
+                (informed, one, added, (one, c * squares))
             }
         };
-        self.correct(work, error * measured.inverse_a, fate.used);
+        let bound = self.get(self.layout.bound());
+        let (next, used) = make_room(bound, grown, informed, || self.trace());
+        self.put(self.layout.bound(), A::select(used, next, bound));
+        let (all, mut silent) = (A::all(used), error);
+        if !all {
+            if with_leverage {
+                silent = self.leverage(work);
+            }
+            growth = A::select(used, growth, one);
+            (c, t) = (A::select(used, c, zero), A::select(used, t, one));
+            work.leave_out::<A>(used);
+        }
+        let measured = match form {
+            Form::Scale { .. } => self.scale(work, growth),
+            Form::Along { .. } => self.widen(work, (c, t)),
+        };
+        let step = A::select(used, error * measured.inverse_a, -zero);
+        self.correct(work, step);
         let outcome = Outcome { error, leverage: measured.s, codes: None };
-        if A::all(fate.used) {
+        if all {
             return outcome;
         }
-        // what is in the dead zone is as it was
-        let silent = if with_leverage { self.leverage(work) } else { error };
-        report::mixed(&fate, (y, squares), outcome, silent)
+        report::mixed(&Fate { accepted, informed, used }, (y, squares), outcome, silent)
     }
 
     // plain loops: what an iterator calls may not be compiled for the vectors
@@ -227,29 +244,24 @@ impl<T: Real> Columns<'_, T> {
 
     /// P̄ = growth·P, then the measurement.
     #[inline(always)]
-    fn scale<A: Abreast<T>>(
-        &mut self,
-        work: &mut Work<'_, T>,
-        growth: A,
-        used: A::Mask,
-    ) -> Measured<A> {
+    fn scale<A: Abreast<T>>(&mut self, work: &mut Work<'_, T>, growth: A) -> Measured<A> {
         for c in 0..self.n {
             put(work.d, c, self.d::<A>(c) * growth);
             put(work.w, c, self.transposed::<A>(work, c));
         }
-        let measured = self.chain(work, used);
+        let measured = self.chain(work);
         for c in 0..self.n {
             let (w, v): (A, A) = (get(work.w, c), get(work.v, c));
             let inverse = get(work.inverse, c);
             for i in 0..c {
                 let (at, k): (usize, A) = (self.layout.column(c) + i, get(work.k, i));
                 let before: A = self.get(at);
-                self.put(at, (-(w * k)).mul_add(inverse, before), used);
+                self.put(at, (-(w * k)).mul_add(inverse, before));
                 put(work.k, i, v.mul_add(before, k));
             }
             put(work.k, c, v);
         }
-        self.narrow(work, &measured, used);
+        self.narrow(work, &measured);
         measured
     }
 
@@ -282,12 +294,7 @@ impl<T: Real> Columns<'_, T> {
 
     /// P̄ = P + c·fᵀf, then the measurement.
     #[inline(always)]
-    fn widen<A: Abreast<T>>(
-        &mut self,
-        work: &mut Work<'_, T>,
-        (c, mut t): (A, A),
-        used: A::Mask,
-    ) -> Measured<A> {
+    fn widen<A: Abreast<T>>(&mut self, work: &mut Work<'_, T>, (c, mut t): (A, A)) -> Measured<A> {
         let (zero, one) = (A::splat(T::ZERO), A::splat(T::ONE));
         let mut inverse_t = c;
         for c in (0..self.n).rev() {
@@ -303,7 +310,7 @@ impl<T: Real> Columns<'_, T> {
             put(work.w, c, get::<T, A>(work.slope, c).mul_add(p, before));
             p = get::<T, A>(work.z, c).mul_add(before, p);
         }
-        let measured = self.chain(work, used);
+        let measured = self.chain(work);
         for c in 0..self.n {
             let (z, slope): (A, A) = (get(work.z, c), get(work.slope, c));
             let (w, v, inverse): (A, A, A) = (get(work.w, c), get(work.v, c), get(work.inverse, c));
@@ -313,19 +320,19 @@ impl<T: Real> Columns<'_, T> {
                 let before: A = self.get(at);
                 let widened = slope.mul_add(x, before);
                 put(work.x, i, z.mul_add(before, x));
-                self.put(at, (-(w * k)).mul_add(inverse, widened), used);
+                self.put(at, (-(w * k)).mul_add(inverse, widened));
                 put(work.k, i, v.mul_add(widened, k));
             }
             put(work.x, c, z);
             put(work.k, c, v);
         }
-        self.narrow(work, &measured, used);
+        self.narrow(work, &measured);
         measured
     }
 
     /// D after the measurement of a regressor with w = Uᵀf.
     #[inline(always)]
-    fn chain<A: Abreast<T>>(&mut self, work: &mut Work<'_, T>, used: A::Mask) -> Measured<A> {
+    fn chain<A: Abreast<T>>(&mut self, work: &mut Work<'_, T>) -> Measured<A> {
         let (one, mut s) = (A::splat(T::ONE), A::splat(T::ZERO));
         let (mut a, mut inverse_a, mut least) = (one, one, A::splat(T::CEILING));
         for c in 0..self.n {
@@ -338,30 +345,25 @@ impl<T: Real> Columns<'_, T> {
             inverse_a = one / next;
             let after = d * (a * inverse_a);
             least = least.min(after);
-            self.put(self.layout.diagonal() + c, after, used);
+            self.put(self.layout.diagonal() + c, after);
             a = next;
         }
         let lifted = !A::all(floor::far_after(least, a));
         if lifted {
-            self.lift(work, (a, inverse_a), used);
+            self.lift(work, (a, inverse_a));
         }
         Measured { s, inverse_a, lifted }
     }
 
     /// D, just measured, at the floor where it is below.
     #[inline(always)]
-    fn lift<A: Abreast<T>>(
-        &mut self,
-        work: &mut Work<'_, T>,
-        (a, mut inverse_after): (A, A),
-        used: A::Mask,
-    ) {
+    fn lift<A: Abreast<T>>(&mut self, work: &mut Work<'_, T>, (a, mut inverse_after): (A, A)) {
         for c in (0..self.n).rev() {
             let inverse: A = get(work.inverse, c);
             let (at, w) = (self.layout.diagonal() + c, get(work.w, c));
             let column = floor::Column { d: self.get(at), w, v: get(work.v, c), inverse };
             let (column, share) = column.lift(inverse_after, a);
-            self.put(at, column.d, used);
+            self.put(at, column.d);
             put(work.w, c, column.w);
             put(work.inverse, c, column.inverse);
             put(work.q, c, share);
@@ -371,7 +373,7 @@ impl<T: Real> Columns<'_, T> {
 
     /// The columns of which D was lifted add to P what they added before.
     #[inline(always)]
-    fn narrow<A: Abreast<T>>(&mut self, work: &Work<'_, T>, measured: &Measured<A>, used: A::Mask) {
+    fn narrow<A: Abreast<T>>(&mut self, work: &Work<'_, T>, measured: &Measured<A>) {
         if !measured.lifted {
             return;
         }
@@ -379,18 +381,18 @@ impl<T: Real> Columns<'_, T> {
             let share: A = get(work.q, c);
             for i in 0..c {
                 let at = self.layout.column(c) + i;
-                self.put(at, self.get::<A>(at) * share, used);
+                self.put(at, self.get::<A>(at) * share);
             }
         }
     }
 
     /// θ ← θ + step·k.
     #[inline(always)]
-    fn correct<A: Abreast<T>>(&mut self, work: &Work<'_, T>, step: A, used: A::Mask) {
+    fn correct<A: Abreast<T>>(&mut self, work: &Work<'_, T>, step: A) {
         for i in 0..self.n {
             let at = self.layout.theta() + i;
             let after = step.mul_add(get(work.k, i), self.get(at));
-            self.put(at, after, used);
+            self.put(at, after);
         }
     }
 }
