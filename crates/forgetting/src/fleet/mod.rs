@@ -2,7 +2,7 @@
 //! of the vectors.
 //!
 //! Each stream is the estimator of one row and one target that [`Fleet::get`] returns, and the
-//! recursion is the same source. With at most eight parameters the bits are those of as many
+//! recursion is the same source. With at most ten parameters the bits are those of as many
 //! estimators; with more, sums are taken in another order.
 
 mod kind;
@@ -17,7 +17,7 @@ pub use part::{Part, Parts, Samples, Told};
 pub(crate) use storage::{Layout, Line};
 
 use crate::factor::kernel::fleet::SCRATCH;
-use crate::factor::kernel::BLOCK;
+use crate::factor::kernel::FEW;
 use crate::factor::Form;
 use crate::gates::Gate;
 use crate::rates::{AnyRate, Constant, Rate};
@@ -159,7 +159,7 @@ impl<T: Real> Fleet<T> {
     pub fn parts(&mut self, most: usize) -> Result<Parts<'_, T>, Error> {
         let n = self.parameters();
         let blocks = self.offered.len().div_ceil(most.max(1)).max(1);
-        let scratch = if n > BLOCK { SCRATCH * n } else { 0 };
+        let scratch = if n > FEW { SCRATCH * n } else { 0 };
         let lines = scratch * self.offered.len().div_ceil(blocks);
         extend(&mut self.scratch, lines, Line::splat(T::ZERO))?;
         let rest = Part {

@@ -49,8 +49,6 @@ mod tile;
 mod told;
 mod triangular;
 
-#[cfg(feature = "alloc")]
-pub(crate) use layout::BLOCK;
 pub use layout::{
     capacity, column, get_column, is_unit_triangular, length, most, place, put_column, scratch,
     set_identity, visit, FEW,

@@ -1,8 +1,9 @@
-//! A few streams of at most eight parameters.
+//! A few streams of at most ten parameters.
 
 #![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
 
 use super::{accepts, adds, make_room, report, Abreast, Fate, Form, Line, Outcome, Real};
+use crate::factor::kernel::layout::FEW;
 use crate::factor::kernel::long::few_products;
 use crate::factor::kernel::small::{Gain, Small, Unit};
 use crate::fleet::Layout;
@@ -18,7 +19,7 @@ pub struct State<'a, T: Real, A, const N: usize> {
 }
 
 /// The most numbers of a stream.
-const MOST: usize = Layout::new(8).length();
+const MOST: usize = Layout::new(FEW).length();
 
 impl<'a, T: Real, A: Abreast<T>, const N: usize> State<'a, T, A, N> {
     const LAYOUT: Layout = Layout::new(N);

@@ -4,7 +4,7 @@
 //! decides by a branch is decided here for each lane by a mask. A stream that does not use its
 //! sample is written back as it was.
 
-use super::layout::BLOCK;
+use super::layout::FEW;
 use crate::factor::{DeadZone, Form};
 use crate::fleet::{Layout, Line, Part, Samples, Told, REFUSED};
 use crate::rules::Skip;
@@ -39,8 +39,8 @@ impl<T: Real> Kernel<T> for Advance<'_, '_, '_, T> {
     #[inline(always)]
     fn run<V: Vector<T>, const GROUP: usize>(mut self) -> usize {
         let n = self.part.n;
-        if n <= BLOCK {
-            with_width!(n, few::<T, V>(&mut self))
+        if n <= FEW {
+            with_few!(n, few::<T, V>(&mut self))
         } else {
             many::advance::<T, V::Abreast>(&mut self)
         }

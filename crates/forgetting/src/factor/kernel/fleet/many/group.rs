@@ -1,0 +1,199 @@
+//! A few neighbouring columns of U together: what goes along the rows is read and written once for
+//! all of them, and none waits for another.
+
+// plain loops: what an iterator calls may not be compiled for the vectors
+#![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
+
+use super::work::{get, put, Work};
+use super::{read, write, Abreast, Line, Real};
+use core::marker::PhantomData;
+
+/// Calls the method for one group of columns after the other, from the first.
+macro_rules! in_groups {
+    ($columns:ident.$method:ident($work:ident)) => {
+        let mut first = 0;
+        while first + 4 <= $columns.n {
+            $columns.group::<4>(first).$method($work);
+            first += 4;
+        }
+        while first < $columns.n {
+            $columns.group::<1>(first).$method($work);
+            first += 1;
+        }
+    };
+}
+
+/// The same from the last.
+macro_rules! in_groups_from_the_last {
+    ($columns:ident.$method:ident($work:ident)) => {
+        let mut end = $columns.n;
+        while end % 4 > 0 {
+            end -= 1;
+            $columns.group::<1>(end).$method($work);
+        }
+        while end > 0 {
+            end -= 4;
+            $columns.group::<4>(end).$method($work);
+        }
+    };
+}
+
+pub(super) use {in_groups, in_groups_from_the_last};
+
+/// Columns `first..first + C`, for the streams from `lane` on.
+pub struct Group<'a, T: Real, A, const C: usize> {
+    first: usize,
+    lane: usize,
+    /// the rows that all of them have
+    rows: [&'a mut [Line<T>]; C],
+    /// the other rows, of which the column at j has j
+    corner: [&'a mut [Line<T>]; C],
+    lanes: PhantomData<A>,
+}
+
+fn none<'a, T: Real>() -> &'a mut [Line<T>] {
+    &mut []
+}
+
+impl<'a, T: Real, A: Abreast<T>, const C: usize> Group<'a, T, A, C> {
+    /// `lines` starts with them.
+    #[inline(always)]
+    pub fn of(mut lines: &'a mut [Line<T>], first: usize, lane: usize) -> Self {
+        let (mut rows, mut corner) = ([(); C].map(|()| none()), [(); C].map(|()| none()));
+        for j in 0..C {
+            let (column, rest) = lines.split_at_mut(first + j);
+            (rows[j], corner[j]) = column.split_at_mut(first);
+            lines = rest;
+        }
+        Self { first, lane, rows, corner, lanes: PhantomData }
+    }
+
+    #[inline(always)]
+    fn row(&self, j: usize, i: usize) -> A {
+        read(&self.rows[j][i], self.lane)
+    }
+
+    #[inline(always)]
+    fn set_row(&mut self, j: usize, i: usize, u: A) {
+        write(&mut self.rows[j][i], self.lane, u);
+    }
+
+    #[inline(always)]
+    fn corner(&self, j: usize, i: usize) -> A {
+        read(&self.corner[j][i], self.lane)
+    }
+
+    #[inline(always)]
+    fn set_corner(&mut self, j: usize, i: usize, u: A) {
+        write(&mut self.corner[j][i], self.lane, u);
+    }
+
+    /// A number for each column.
+    #[inline(always)]
+    fn several(&self, lines: &[Line<T>]) -> [A; C] {
+        let mut numbers = [A::splat(T::ZERO); C];
+        for j in 0..C {
+            numbers[j] = get(lines, self.first + j);
+        }
+        numbers
+    }
+
+    /// w = Uᵀf
+    #[inline(always)]
+    pub fn transpose(&self, work: &mut Work<'_, T>) {
+        let own = self.several(work.f);
+        let (mut w, above) = (own, &work.f[..self.first]);
+        for i in 0..self.first {
+            let f: A = get(above, i);
+            for j in 0..C {
+                w[j] = self.row(j, i).mul_add(f, w[j]);
+            }
+        }
+        for j in 0..C {
+            for i in 0..j {
+                w[j] = self.corner(j, i).mul_add(own[i], w[j]);
+            }
+            put(work.w, self.first + j, w[j]);
+        }
+    }
+
+    /// What the columns hold of z, and z above them without it.
+    #[inline(always)]
+    pub fn eliminate(&self, work: &mut Work<'_, T>) {
+        let mut less = self.several(work.z);
+        for j in (0..C).rev() {
+            put(work.z, self.first + j, less[j]);
+            less[j] = -less[j];
+            for i in 0..j {
+                less[i] = less[j].mul_add(self.corner(j, i), less[i]);
+            }
+        }
+        let above = &mut work.z[..self.first];
+        for i in 0..self.first {
+            let mut z: A = get(above, i);
+            for j in (0..C).rev() {
+                z = less[j].mul_add(self.row(j, i), z);
+            }
+            put(above, i, z);
+        }
+    }
+
+    /// The columns after the measurement.
+    #[inline(always)]
+    pub fn measure(&mut self, work: &mut Work<'_, T>) {
+        let (w, v) = (self.several(work.w), self.several(work.v));
+        let inverse = self.several(work.inverse);
+        let above = &mut work.k[..self.first];
+        for i in 0..self.first {
+            let mut k: A = get(above, i);
+            for j in 0..C {
+                let before = self.row(j, i);
+                self.set_row(j, i, (-(w[j] * k)).mul_add(inverse[j], before));
+                k = v[j].mul_add(before, k);
+            }
+            put(above, i, k);
+        }
+        for i in 0..C {
+            let mut k = v[i];
+            for j in i + 1..C {
+                let before = self.corner(j, i);
+                self.set_corner(j, i, (-(w[j] * k)).mul_add(inverse[j], before));
+                k = v[j].mul_add(before, k);
+            }
+            put(work.k, self.first + i, k);
+        }
+    }
+
+    /// The columns after P ← P + c·fᵀf and the measurement.
+    #[inline(always)]
+    pub fn widen_and_measure(&mut self, work: &mut Work<'_, T>) {
+        let (z, slope) = (self.several(work.z), self.several(work.slope));
+        let (w, v) = (self.several(work.w), self.several(work.v));
+        let inverse = self.several(work.inverse);
+        let (above_x, above_k) = (&mut work.x[..self.first], &mut work.k[..self.first]);
+        for i in 0..self.first {
+            let (mut x, mut k): (A, A) = (get(above_x, i), get(above_k, i));
+            for j in 0..C {
+                let before = self.row(j, i);
+                let widened = slope[j].mul_add(x, before);
+                x = z[j].mul_add(before, x);
+                self.set_row(j, i, (-(w[j] * k)).mul_add(inverse[j], widened));
+                k = v[j].mul_add(widened, k);
+            }
+            put(above_x, i, x);
+            put(above_k, i, k);
+        }
+        for i in 0..C {
+            let (mut x, mut k) = (z[i], v[i]);
+            for j in i + 1..C {
+                let before = self.corner(j, i);
+                let widened = slope[j].mul_add(x, before);
+                x = z[j].mul_add(before, x);
+                self.set_corner(j, i, (-(w[j] * k)).mul_add(inverse[j], widened));
+                k = v[j].mul_add(widened, k);
+            }
+            put(work.x, self.first + i, x);
+            put(work.k, self.first + i, k);
+        }
+    }
+}
