@@ -3,49 +3,50 @@
 use crate::vector::Vector;
 use crate::Real;
 
-/// What has to be known of `S` samples before they are used.
-pub struct Arrival<T, const S: usize> {
-    /// φθ
-    pub predicted: [T; S],
-    /// ‖φ‖²
-    pub squares: [T; S],
-}
-
 /// Puts the n numbers of each sample, which come one after the other at the beginning of `phi`, side
-/// by side in `f`, and zeros after them.
+/// by side in `f`, and zeros after them; returns ‖φ‖² of each.
 #[inline(always)]
 pub fn arrive<T: Real, V: Vector<T>, const S: usize>(
     phi: &[T],
-    theta: &[T],
+    n: usize,
     f: &mut [[T::Chunk; S]],
-) -> Arrival<T, S> {
-    let n = theta.len();
-    let (full, rest) = T::chunks(theta);
-    let [mut predicted, mut squares] = [[V::splat(T::ZERO); S]; 2];
-    for (t, theta) in full.iter().enumerate() {
-        let theta = V::load(theta);
+) -> [T; S] {
+    let (full, rest) = (n / T::ROWS, n % T::ROWS);
+    let mut squares = [V::splat(T::ZERO); S];
+    for (t, f) in f[..full].iter_mut().enumerate() {
         for l in 0..S {
-            f[t][l] = T::chunks(&phi[l * n + t * T::ROWS..]).0[0];
-            let f = V::load(&f[t][l]);
-            predicted[l] = f.mul_add(theta, predicted[l]);
+            f[l] = T::chunks(&phi[l * n + t * T::ROWS..]).0[0];
+            let f = V::load(&f[l]);
             squares[l] = f.mul_add(f, squares[l]);
         }
     }
-    if !rest.is_empty() {
-        let (theta, last) = (V::load(&T::chunk(rest)), full.len());
+    if rest > 0 {
         for l in 0..S {
-            let numbers = &phi[l * n + last * T::ROWS..];
+            let numbers = &phi[l * n + full * T::ROWS..];
             let lanes = match T::chunks(numbers).0.first() {
                 // what follows are numbers of other samples
-                Some(chunk) => V::load(chunk).first(rest.len()),
-                None => V::load(&T::chunk(&numbers[..rest.len()])),
+                Some(chunk) => V::load(chunk).first(rest),
+                None => V::load(&T::chunk(&numbers[..rest])),
             };
-            lanes.store(&mut f[last][l]);
-            predicted[l] = lanes.mul_add(theta, predicted[l]);
+            lanes.store(&mut f[full][l]);
             squares[l] = lanes.mul_add(lanes, squares[l]);
         }
     }
-    Arrival { predicted: V::sums(predicted), squares: V::sums(squares) }
+    V::sums(squares)
+}
+
+/// φθ of each.
+#[inline(always)]
+pub fn predict<T: Real, V: Vector<T>, const S: usize>(theta: &[T], f: &[[T::Chunk; S]]) -> [T; S] {
+    let (full, rest) = T::chunks(theta);
+    let (mut predicted, last) = ([V::splat(T::ZERO); S], T::chunk(rest));
+    for (t, f) in f.iter().enumerate() {
+        let theta = V::load(full.get(t).unwrap_or(&last));
+        for l in 0..S {
+            predicted[l] = V::load(&f[l]).mul_add(theta, predicted[l]);
+        }
+    }
+    V::sums(predicted)
 }
 
 /// θ ← θ + Σ_l step_l k_l, one after the other; `gain` gives k_l for the rows of a tile, `thetas`

@@ -1,4 +1,4 @@
-//! Several samples in one sweep over U, when P is scaled between them.
+//! Several samples in each sweep over U, when P is scaled between them.
 //!
 //! Sample l needs Uᵀf with the U that the samples before it leave. Each of them does the same to
 //! a row of numbers below U, Uᵀf of any f, as to the rows of U: so all four products with the U of
@@ -10,6 +10,9 @@
 //! then slope_lj and v_lj from w_lj as of one sample alone ([`super::bierman`])
 //! for each column j:  all four changes of u_j, with one load and one store
 //! ```
+//!
+//! The products of the next samples with a column are taken as soon as it is changed, while it is in the
+//! nearest cache.
 //!
 //! The g are what the errors need, too: e_l = y_l − φ_l θ − Σ_{m<l} g_ml e_m / a_m with the θ of
 //! before. Numbers are rounded in another order than those of samples one by one, and digits are
@@ -65,22 +68,31 @@ impl<'a, T: Real> Room<'a, T> {
         Self { f, k, changes, d: &mut rest[..blocks] }
     }
 
-    /// Finds w of all samples, with the U of before them, and D; the fᵀPf of each with the P of
-    /// before.
+    /// Goes through the columns of U once: changes them and D by what all samples do if they are
+    /// `done`, then finds w of the `next` samples, which are in f, and takes D. Returns the fᵀPf of
+    /// each of those with the P of before them.
     #[inline(always)]
-    pub fn look<V: Vector<T>, const GROUP: usize>(
+    pub fn sweep<V: Vector<T>, const GROUP: usize>(
         &mut self,
-        columns: &[T],
-        diagonal: &[T],
+        (columns, diagonal): (&mut [T], &mut [T]),
+        done: bool,
+        next: bool,
     ) -> PerSample<T> {
         let mut leverages = [V::Eight::splat(T::ZERO); BATCH];
         for (b, (d, changes)) in self.d.iter_mut().zip(&mut *self.changes).enumerate() {
-            *d = eight(diagonal, b, beyond());
-            let w = dots_beside::<T, V, GROUP, BATCH>(block(columns, b), self.f);
-            for l in 0..BATCH {
-                changes[l][W_THEN_SLOPE] = w[l];
-                let (d, w) = (V::Eight::read(d), V::Eight::read(&w[l]));
-                leverages[l] = (d * w).mul_add(w, leverages[l]);
+            if done {
+                put_eight(diagonal, b, d);
+                let turns = changes.each_ref().map(turn);
+                turn_columns::<T, V, _, GROUP, BATCH>((block_mut(columns, b), b), self.k, &turns);
+            }
+            if next {
+                *d = eight(diagonal, b, beyond());
+                let w = dots_beside::<T, V, GROUP, BATCH>(block(columns, b), self.f);
+                for l in 0..BATCH {
+                    changes[l][W_THEN_SLOPE] = w[l];
+                    let (d, w) = (V::Eight::read(d), V::Eight::read(&w[l]));
+                    leverages[l] = (d * w).mul_add(w, leverages[l]);
+                }
             }
         }
         let mut sums = [T::ZERO; BATCH];
@@ -117,20 +129,6 @@ impl<'a, T: Real> Room<'a, T> {
         }
         let measured = chain.measured(largest_of(&most.numbers()), growth > T::ONE);
         above_floor(less_least).then_some(measured)
-    }
-
-    /// Changes U and D by what all samples do.
-    #[inline(always)]
-    pub fn carry_out<V: Vector<T>, const GROUP: usize>(
-        &mut self,
-        columns: &mut [T],
-        diagonal: &mut [T],
-    ) {
-        for (b, (d, changes)) in self.d.iter().zip(&*self.changes).enumerate() {
-            put_eight(diagonal, b, d);
-            let turns = changes.each_ref().map(turn);
-            turn_columns::<T, V, _, GROUP, BATCH>((block_mut(columns, b), b), self.k, &turns);
-        }
     }
 }
 

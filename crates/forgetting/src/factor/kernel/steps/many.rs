@@ -1,15 +1,15 @@
 //! More than ten parameters: in sweeps over U.
 
 use super::super::along;
-use super::super::arrival::{arrive, correct};
-use super::super::batch::{self, keeps_digits, BATCH};
+use super::super::arrival::{arrive, correct, predict};
+use super::super::batch::{self, keeps_digits, PerSample, BATCH};
 use super::super::bierman::largest;
 use super::super::long::{add_scaled_by, products};
 use super::super::measure::{adds, many as measure};
 use super::super::triangular::leverage_of;
 use super::super::Told;
 use super::{accepts, Steps};
-use crate::factor::Form;
+use crate::factor::{Form, Measured};
 use crate::vector::Vector;
 use crate::{Kernel, Real};
 
@@ -40,7 +40,7 @@ fn all<T: Real, V: Vector<T>, const GROUP: usize>(task: &mut Steps<'_, T>) -> us
     while taken < most {
         let several = match task.form {
             Form::Scale { growth } if most - taken >= BATCH => {
-                batch::<T, V, GROUP>(task, taken, growth)
+                batches::<T, V, GROUP>(task, taken, growth)
             }
             Form::Along { weight, .. } if most - taken >= 2 => {
                 two::<T, V, GROUP>(task, taken, weight)
@@ -85,24 +85,62 @@ fn single<T: Real, V: Vector<T>, const GROUP: usize>(
     Some(())
 }
 
-/// The next samples in one sweep over U, if all of them can be used so.
+/// The next samples, several in each sweep over U, as long as all of them can be used so; how many
+/// that were, if any.
 #[inline(always)]
-fn batch<T: Real, V: Vector<T>, const GROUP: usize>(
+fn batches<T: Real, V: Vector<T>, const GROUP: usize>(
     task: &mut Steps<'_, T>,
-    at: usize,
+    first: usize,
     growth: T,
 ) -> Option<usize> {
     let Steps { place, phi, y, theta, told, thetas, .. } = task;
-    let n = theta.len();
-    let (phi, y) = (&phi[at * n..], &y[at..at + BATCH]);
-    let bound = (0..BATCH).fold(*place.bound, |bound, _| bound * growth);
-    (bound < T::CEILING).then_some(())?;
-    let mut room = batch::Room::of(place.scratch, n);
-    let arrival = arrive::<T, V, BATCH>(phi, theta, room.f);
-    let (leverages, grown) =
-        (room.look::<V, GROUP>(place.columns, place.diagonal), bound / *place.bound);
+    let (n, most) = (theta.len(), told.len().min(y.len()));
+    let (mut room, mut at) = (batch::Room::of(place.scratch, n), first);
+    let [mut squares, mut steps] = [[T::ZERO; BATCH]; 2];
+    loop {
+        let (done, next) = (at > first, at + BATCH <= most);
+        if next {
+            squares = arrive::<T, V, BATCH>(&phi[at * n..], n, room.f);
+        }
+        let p = (&mut *place.columns, &mut *place.diagonal);
+        let leverages = room.sweep::<V, GROUP>(p, done, next);
+        if done {
+            let thetas = thetas.get_mut((at - BATCH) * n..at * n).unwrap_or_default();
+            correct::<T, V, BATCH>(theta, &steps, |l, t| &room.k[t][l], thetas);
+        }
+        if !next {
+            break;
+        }
+        let mut errors = predict::<T, V, BATCH>(theta, room.f);
+        for l in 0..BATCH {
+            errors[l] = y[at + l] - errors[l];
+        }
+        let arrived = (&mut errors, &squares, &leverages);
+        let Some(measured) = measure_batch::<T, V>(&mut room, place.bound, growth, arrived) else {
+            break;
+        };
+        for l in 0..BATCH {
+            steps[l] = errors[l] * measured[l].inverse_variance;
+            told[at + l] = Told::used(errors[l], &measured[l]);
+        }
+        at += BATCH;
+    }
+    (at > first).then(|| at - first)
+}
+
+/// What the samples do to D and to columns still to be changed, and their errors, each with the θ that
+/// those before it leave; nothing, with the bound of P as it was, if one is not to be used so.
+#[inline(always)]
+fn measure_batch<T: Real, V: Vector<T>>(
+    room: &mut batch::Room<'_, T>,
+    bound: &mut T,
+    growth: T,
+    (errors, squares, leverages): (&mut PerSample<T>, &PerSample<T>, &PerSample<T>),
+) -> Option<PerSample<Measured<T>>> {
+    let grown = (0..BATCH).fold(*bound, |bound, _| bound * growth);
+    (grown < T::CEILING).then_some(())?;
     for leverage in &leverages[1..] {
-        keeps_digits(*leverage * grown).then_some(())?;
+        keeps_digits(*leverage * (grown / *bound)).then_some(())?;
     }
     let mut shared = [[T::ZERO; BATCH]; BATCH];
     let measured = [
@@ -111,23 +149,15 @@ fn batch<T: Real, V: Vector<T>, const GROUP: usize>(
         room.scale_and_measure::<V::Eight, 2>(growth, &mut shared[2])?,
         room.scale_and_measure::<V::Eight, 3>(growth, &mut shared[3])?,
     ];
-    let [mut errors, mut steps] = [[T::ZERO; BATCH]; 2];
     for l in 0..BATCH {
-        errors[l] = y[l] - arrival.predicted[l];
         for m in 0..l {
-            errors[l] = (-steps[m]).mul_add(shared[l][m], errors[l]);
+            let step = errors[m] * measured[m].inverse_variance;
+            errors[l] = (-step).mul_add(shared[l][m], errors[l]);
         }
-        steps[l] = errors[l] * measured[l].inverse_variance;
-        accepts(errors[l], arrival.squares[l]).then_some(())?;
+        accepts(errors[l], squares[l]).then_some(())?;
     }
-    *place.bound = bound;
-    room.carry_out::<V, GROUP>(place.columns, place.diagonal);
-    for l in 0..BATCH {
-        told[at + l] = Told::used(errors[l], &measured[l]);
-    }
-    let thetas = thetas.get_mut(at * n..(at + BATCH) * n).unwrap_or_default();
-    correct::<T, V, BATCH>(theta, &steps, |l, t| &room.k[t][l], thetas);
-    Some(BATCH)
+    *bound = grown;
+    Some(measured)
 }
 
 /// Two samples that forget along their regressors, in the same way; not where one is to be left
@@ -142,9 +172,9 @@ fn two<T: Real, V: Vector<T>, const GROUP: usize>(
     let n = theta.len();
     let (phi, y) = (&phi[at * n..], &y[at..at + 2]);
     let mut room = along::Room::<T, 2, 4>::of(place.scratch, n);
-    let arrival = arrive::<T, V, 2>(phi, theta, room.f);
-    let [first, second] = arrival.squares;
+    let [first, second] = arrive::<T, V, 2>(phi, n, room.f);
     (!form.leaves_out(first) && !form.leaves_out(second)).then_some(())?;
+    let predicted = predict::<T, V, 2>(theta, room.f);
     room.look::<V, GROUP>(place.columns, place.diagonal);
     let (mut bound, leverage) = (*place.bound, room.leverage::<V::Eight>(1));
 
@@ -153,14 +183,14 @@ fn two<T: Real, V: Vector<T>, const GROUP: usize>(
     keeps_digits(leverage + added * second).then_some(())?;
     bound += added;
     let (measured, _, above) = room.add_and_measure::<V::Eight, 0>(information / weight);
-    let error = y[0] - arrival.predicted[0];
+    let error = y[0] - predicted[0];
     let step = error * measured.inverse_variance;
     (above && accepts(error, first)).then_some(())?;
 
     let information = room.information::<V::Eight, 1>();
     bound += more(weight, information, second)?;
     let (after, shared, above) = room.add_and_measure::<V::Eight, 1>(information / weight);
-    let later = (-step).mul_add(shared, y[1] - arrival.predicted[1]);
+    let later = (-step).mul_add(shared, y[1] - predicted[1]);
     (above && accepts(later, second) && bound < T::CEILING).then_some(())?;
 
     *place.bound = bound;
