@@ -105,6 +105,21 @@ def test_arrays_of_any_layout_give_the_same_estimate():
     assert np.array_equal(fg.RLS(3).run(np.asfortranarray(phi), y).theta, plain)
     doubled = np.repeat(phi, 2, axis=0)[::2]
     assert np.array_equal(fg.RLS(3).run(doubled, list(y)).theta, plain)
+    assert np.array_equal(fg.RLS(3).run(phi.astype(">f8"), y.astype("<f8")).theta, plain)
+    crooked = np.frombuffer(b"\0" + phi.tobytes(), np.uint8)[1:].view(float).reshape(phi.shape)
+    assert not crooked.flags.aligned
+    assert np.array_equal(fg.RLS(3).run(crooked, y).theta, plain)
+
+
+@pytest.mark.parametrize("kind", [np.float64, np.float32, float, np.array, lambda x: np.array([x])])
+def test_numbers_of_any_kind_give_the_same_estimate(kind):
+    phi, y = record(60, 1, 1)
+    phi, y = phi[:, 0], y[:, 0, 0].astype(np.float32).astype(float)
+    plain, est = fg.RLS(3), fg.RLS(3)
+    for row, number in zip(phi, y, strict=True):
+        plain.update(row, float(number))
+        est.update(row.view(np.recarray), kind(number))
+    assert est.to_bytes() == plain.to_bytes()
 
 
 def test_noise_covariance_weighs_rows():

@@ -4,7 +4,10 @@ use crate::errors::invalid;
 use bytemuck::{TransparentWrapper, TransparentWrapperAlloc};
 use forgetting::Real;
 use forgetting_cpu::Fused;
-use numpy::{Element, IxDyn, PyArray, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
+use numpy::{
+    Element, IxDyn, PyArray, PyArrayDescr, PyArrayDyn, PyArrayMethods, PyUntypedArray,
+    PyUntypedArrayMethods,
+};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyFloat;
@@ -24,6 +27,8 @@ pub trait Stored: Sized {
 pub trait Number: Real + Stored {
     /// the name of NumPy's type
     const DTYPE: &'static str;
+    /// NumPy's type, which it makes once.
+    fn dtype(py: Python<'_>) -> &Py<PyArrayDescr>;
     /// NumPy's numbers, to compute with.
     fn wrap(numbers: &[Self::Element]) -> &[Self];
 }
@@ -45,6 +50,11 @@ macro_rules! number {
         impl Number for $float {
             const DTYPE: &'static str = $name;
             #[inline(always)]
+            fn dtype(py: Python<'_>) -> &Py<PyArrayDescr> {
+                static DTYPE: PyOnceLock<Py<PyArrayDescr>> = PyOnceLock::new();
+                DTYPE.get_or_init(py, || numpy::dtype::<$float>(py).unbind())
+            }
+            #[inline(always)]
             fn wrap(numbers: &[Self]) -> &[Self] {
                 numbers
             }
@@ -59,6 +69,10 @@ macro_rules! number {
 
         impl Number for Fused<$float> {
             const DTYPE: &'static str = $name;
+            #[inline(always)]
+            fn dtype(py: Python<'_>) -> &Py<PyArrayDescr> {
+                <$float as Number>::dtype(py)
+            }
             #[inline(always)]
             fn wrap(numbers: &[$float]) -> &[Self] {
                 Self::wrap_slice(numbers)
@@ -78,7 +92,7 @@ pub fn contiguous<'py, T: Number>(
     values: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyArrayDyn<T::Element>>> {
     if let Ok(array) = values.cast::<PyArray<T::Element, IxDyn>>() {
-        if array.is_c_contiguous() {
+        if is_slice(array) {
             return Ok(array.clone());
         }
     }
@@ -89,9 +103,29 @@ pub fn contiguous<'py, T: Number>(
     })?;
     let array = convert
         .bind(py)
-        .call1((values, T::DTYPE, "C"))
+        .call1((values, T::DTYPE, "CA"))
         .map_err(|error| invalid(format!("{name} must hold numbers ({error})")))?;
     Ok(array.cast_into::<PyArray<T::Element, IxDyn>>()?)
+}
+
+/// `values` if it is an array of `T` as NumPy itself makes them, in C order: a few comparisons tell.
+#[inline]
+fn native<'a, 'py, T: Number>(
+    values: &'a Bound<'py, PyAny>,
+) -> Option<&'a Bound<'py, PyArrayDyn<T::Element>>> {
+    let array = values.cast_exact::<PyUntypedArray>().ok()?;
+    if !array.dtype().is(T::dtype(values.py())) {
+        return None;
+    }
+    // SAFETY: it is an array, and its numbers are `T`
+    let array = unsafe { values.cast_unchecked() };
+    is_slice(array).then_some(array)
+}
+
+/// Whether the numbers lie in C order where a slice may.
+#[inline]
+fn is_slice<T: Element>(array: &Bound<'_, PyArrayDyn<T>>) -> bool {
+    array.is_c_contiguous() && array.data().is_aligned()
 }
 
 /// Calls `use_slice` with the numbers of `values`: of an array of `T` in C order without a copy,
@@ -105,11 +139,9 @@ pub fn with_slice<T: Number, R>(
     values: &Bound<'_, PyAny>,
     use_slice: impl FnOnce(&[T]) -> PyResult<R>,
 ) -> PyResult<R> {
-    if let Ok(array) = values.cast::<PyArray<T::Element, IxDyn>>() {
-        if array.is_c_contiguous() {
-            // SAFETY: the interpreter is held and no Python code runs while the slice lives
-            return use_slice(T::wrap(unsafe { array.as_slice() }?));
-        }
+    if let Some(array) = native::<T>(values) {
+        // SAFETY: the interpreter is held and no Python code runs while the slice lives
+        return use_slice(T::wrap(unsafe { array.as_slice() }?));
     }
     if let Ok(number) = values.cast::<PyFloat>() {
         return use_slice(&[T::from_f64(number.value())]);
