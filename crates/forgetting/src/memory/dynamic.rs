@@ -1,0 +1,143 @@
+//! Numbers on the heap, of sizes known when they are made.
+
+use super::Memory;
+use crate::factor::kernel::{capacity, scratch, set_identity};
+use crate::{Error, Real};
+use alloc::{vec, vec::Vec};
+use core::marker::PhantomData;
+
+/// Sizes chosen when the estimator is made; its buffers are on the heap.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dynamic<T> {
+    parameters: usize,
+    rows: usize,
+    targets: usize,
+    real: PhantomData<T>,
+}
+
+impl<T: Real> Dynamic<T> {
+    /// The most numbers that a list can hold.
+    pub const LONGEST_LIST: usize = 1 << 20;
+
+    /// `parameters` n, `rows` p and `targets` m, each from 1 to 2¹⁵.
+    ///
+    /// # Errors
+    /// [`Error::Value`] names the size that is out of range.
+    pub fn new(parameters: usize, rows: usize, targets: usize) -> Result<Self, Error> {
+        let sizes = [("parameters", parameters), ("rows", rows), ("targets", targets)];
+        for (name, size) in sizes {
+            if !(1..=1 << 15).contains(&size) {
+                return Err(Error::value(name, size as f64, "whole numbers from 1 to 32768"));
+            }
+        }
+        Ok(Self { parameters, rows, targets, real: PhantomData })
+    }
+}
+
+/// Numbers on the heap, the first of them at the start of a cache line: a vector that lies
+/// across two lines costs twice.
+#[derive(Debug)]
+pub struct Aligned<T> {
+    numbers: Vec<T>,
+    first: usize,
+    length: usize,
+}
+
+impl<T: Real> Aligned<T> {
+    const LINE: usize = 64;
+
+    fn zeros(length: usize) -> Self {
+        let spare = Self::LINE / T::BYTES;
+        let numbers = vec![T::ZERO; length + spare];
+        let first = numbers.as_ptr().align_offset(Self::LINE).min(spare);
+        Self { numbers, first, length }
+    }
+}
+
+impl<T: Real> Clone for Aligned<T> {
+    fn clone(&self) -> Self {
+        let mut copy = Self::zeros(self.length);
+        copy.as_mut().copy_from_slice(self.as_ref());
+        copy
+    }
+}
+
+impl<T> AsRef<[T]> for Aligned<T> {
+    #[inline(always)]
+    fn as_ref(&self) -> &[T] {
+        &self.numbers[self.first..self.first + self.length]
+    }
+}
+
+impl<T> core::ops::Deref for Aligned<T> {
+    type Target = [T];
+    #[inline(always)]
+    fn deref(&self) -> &[T] {
+        self.as_ref()
+    }
+}
+
+impl<T> AsMut<[T]> for Aligned<T> {
+    #[inline(always)]
+    fn as_mut(&mut self) -> &mut [T] {
+        &mut self.numbers[self.first..self.first + self.length]
+    }
+}
+
+impl<T: Real> Memory for Dynamic<T> {
+    type Real = T;
+    type Vector = Aligned<T>;
+    type Packed = Aligned<T>;
+    type Square = Aligned<T>;
+    type Rows = Aligned<T>;
+    type Noise = Aligned<T>;
+    type Errors = Aligned<T>;
+    type Parameters = Aligned<T>;
+    type Scratch = Aligned<T>;
+    type List = Aligned<T>;
+
+    #[inline(always)]
+    fn parameters(&self) -> usize {
+        self.parameters
+    }
+    #[inline(always)]
+    fn rows(&self) -> usize {
+        self.rows
+    }
+    #[inline(always)]
+    fn targets(&self) -> usize {
+        self.targets
+    }
+    fn vector(&self) -> Aligned<T> {
+        Aligned::zeros(self.parameters)
+    }
+    fn packed(&self) -> Aligned<T> {
+        let mut columns = Aligned::zeros(capacity::<T>(self.parameters));
+        set_identity(columns.as_mut(), self.parameters);
+        columns
+    }
+    fn square(&self) -> Aligned<T> {
+        Aligned::zeros(self.parameters * self.parameters)
+    }
+    fn regressors(&self) -> Aligned<T> {
+        Aligned::zeros(self.rows * self.parameters)
+    }
+    fn noise(&self) -> Aligned<T> {
+        Aligned::zeros(self.rows * self.rows)
+    }
+    fn errors(&self) -> Aligned<T> {
+        Aligned::zeros(self.rows * self.targets)
+    }
+    fn theta(&self) -> Aligned<T> {
+        Aligned::zeros(self.targets * self.parameters)
+    }
+    fn scratch(&self) -> Aligned<T> {
+        Aligned::zeros(scratch(self.parameters))
+    }
+    fn list(&self, length: usize) -> Aligned<T> {
+        Aligned::zeros(length.min(Self::LONGEST_LIST))
+    }
+    fn longest_list(&self) -> usize {
+        Self::LONGEST_LIST
+    }
+}

@@ -1,0 +1,133 @@
+//! Numbers on the stack, of sizes known to the compiler.
+
+use super::{Buffer, Memory};
+use crate::factor::kernel::{most, scratch, set_identity};
+use crate::Real;
+use core::marker::PhantomData;
+
+/// `B` blocks of `A` numbers on the stack.
+#[derive(Clone, Copy, Debug)]
+pub struct Grid<T, const A: usize, const B: usize>([[T; A]; B]);
+
+impl<T, const A: usize, const B: usize> AsRef<[T]> for Grid<T, A, B> {
+    #[inline(always)]
+    fn as_ref(&self) -> &[T] {
+        self.0.as_flattened()
+    }
+}
+
+impl<T, const A: usize, const B: usize> AsMut<[T]> for Grid<T, A, B> {
+    #[inline(always)]
+    fn as_mut(&mut self) -> &mut [T] {
+        self.0.as_flattened_mut()
+    }
+}
+
+/// A number of parameters for which the packed triangle has a type (1 to 32).
+pub trait Packed<T> {
+    /// [`most`] of n numbers
+    type Triangle: Buffer<T>;
+    /// [`scratch`] of n numbers
+    type Scratch: Buffer<T>;
+    /// U = I
+    fn triangle() -> Self::Triangle;
+    /// Zeros.
+    fn scratch() -> Self::Scratch;
+}
+
+/// The size `N` as a type.
+#[derive(Clone, Copy, Debug)]
+pub struct Size<const N: usize>;
+
+macro_rules! packed {
+    ($($n:literal)*) => {$(
+        impl<T: Real> Packed<T> for Size<$n> {
+            type Triangle = [T; most($n)];
+            type Scratch = [T; scratch($n)];
+            fn triangle() -> Self::Triangle {
+                let mut triangle = [T::ZERO; most($n)];
+                set_identity(&mut triangle, $n);
+                triangle
+            }
+            fn scratch() -> Self::Scratch {
+                [T::ZERO; scratch($n)]
+            }
+        }
+    )*};
+}
+packed!(1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31 32);
+
+/// Sizes known to the compiler: `N` parameters (1 to 32), `P` rows, `M` targets; no heap.
+///
+/// `L` is the room for lists: a rate that looks back over a window needs as many numbers.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Fixed<T, const N: usize, const P: usize = 1, const M: usize = 1, const L: usize = 0>(
+    PhantomData<T>,
+);
+
+impl<T, const N: usize, const P: usize, const M: usize, const L: usize> Fixed<T, N, P, M, L> {
+    /// These sizes.
+    pub const fn new() -> Self {
+        Self(PhantomData)
+    }
+}
+
+impl<T: Real, const N: usize, const P: usize, const M: usize, const L: usize> Memory
+    for Fixed<T, N, P, M, L>
+where
+    Size<N>: Packed<T>,
+{
+    type Real = T;
+    type Vector = [T; N];
+    type Packed = <Size<N> as Packed<T>>::Triangle;
+    type Square = Grid<T, N, N>;
+    type Rows = Grid<T, N, P>;
+    type Noise = Grid<T, P, P>;
+    type Errors = Grid<T, M, P>;
+    type Parameters = Grid<T, N, M>;
+    type Scratch = <Size<N> as Packed<T>>::Scratch;
+    type List = [T; L];
+
+    #[inline(always)]
+    fn parameters(&self) -> usize {
+        N
+    }
+    #[inline(always)]
+    fn rows(&self) -> usize {
+        P
+    }
+    #[inline(always)]
+    fn targets(&self) -> usize {
+        M
+    }
+    fn vector(&self) -> [T; N] {
+        [T::ZERO; N]
+    }
+    fn packed(&self) -> Self::Packed {
+        Size::<N>::triangle()
+    }
+    fn square(&self) -> Self::Square {
+        Grid([[T::ZERO; N]; N])
+    }
+    fn regressors(&self) -> Self::Rows {
+        Grid([[T::ZERO; N]; P])
+    }
+    fn noise(&self) -> Self::Noise {
+        Grid([[T::ZERO; P]; P])
+    }
+    fn errors(&self) -> Self::Errors {
+        Grid([[T::ZERO; M]; P])
+    }
+    fn theta(&self) -> Self::Parameters {
+        Grid([[T::ZERO; N]; M])
+    }
+    fn scratch(&self) -> Self::Scratch {
+        <Size<N> as Packed<T>>::scratch()
+    }
+    fn list(&self, _: usize) -> [T; L] {
+        [T::ZERO; L]
+    }
+    fn longest_list(&self) -> usize {
+        L
+    }
+}
