@@ -54,6 +54,9 @@ pub trait Abreast<T: Real>: Lane<T> {
     fn write(self, numbers: &mut [T]);
     /// The number at each position.
     fn at(number: impl Fn(usize) -> T) -> Self;
+    /// Asks memory for what will be needed soon, where a machine has an instruction for that.
+    #[inline(always)]
+    fn expect<L>(_line: &L) {}
 }
 
 impl<T: Real> Abreast<T> for T {

@@ -145,6 +145,11 @@ macro_rules! abreast {
             fn at(number: impl Fn(usize) -> Fused<$float>) -> Self {
                 Self::read(&core::array::from_fn::<_, $count, _>(number))
             }
+            #[inline(always)]
+            fn expect<L>(line: &L) {
+                // SAFETY: an address is all that it takes
+                unsafe { _mm_prefetch::<_MM_HINT_T0>(core::ptr::from_ref(line).cast()) }
+            }
         }
     };
 }

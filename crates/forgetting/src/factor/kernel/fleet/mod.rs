@@ -47,16 +47,25 @@ impl<T: Real> Kernel<T> for Advance<'_, '_, '_, T> {
     }
 }
 
+/// How many blocks ahead memory is asked for one.
+const AHEAD: usize = 2;
+
 /// The streams of a part, for few parameters.
 #[inline(always)]
 fn few<T: Real, V: Vector<T>, const N: usize>(task: &mut Advance<'_, '_, '_, T>) -> usize {
     let Advance { part, samples, told } = task;
     let (lanes, with_leverage) = (Line::<T>::LANES, told.leverage.is_some());
     let last = part.strengths.len() - 1;
-    let blocks = part.lines.chunks_exact_mut(Layout::new(N).length());
+    let length = Layout::new(N).length();
     let regressors = samples.phi.as_chunks::<N>().0.chunks(lanes);
-    let mut used = 0;
-    for (block, (lines, rows)) in blocks.zip(regressors).enumerate() {
+    let (mut used, mut rest) = (0, &mut *part.lines);
+    for (block, rows) in regressors.enumerate() {
+        let (lines, later) = rest.split_at_mut(length);
+        // a block is long: without this, memory waits until it is done
+        for line in later.iter().skip((AHEAD - 1) * length).take(length) {
+            V::Abreast::expect(line);
+        }
+        rest = later;
         let streams = block * lanes..block * lanes + rows.len();
         let strength = part.strengths[block.min(last)].0.as_ref();
         let y = rows::outputs(samples, streams.clone());
