@@ -30,7 +30,11 @@ impl Dense {
     }
 
     pub fn identity(n: usize) -> Self {
-        Self::diagonal(&vec![1.0; n])
+        Self::scaled_identity(n, 1.0)
+    }
+
+    pub fn scaled_identity(n: usize, c: f64) -> Self {
+        Self::diagonal(&vec![c; n])
     }
 
     pub fn at(&self, i: usize, j: usize) -> f64 {
@@ -45,6 +49,35 @@ impl Dense {
 
     pub fn trace(&self) -> f64 {
         (0..self.rows).map(|i| self.at(i, i)).sum()
+    }
+
+    pub fn times(&self, other: &Self) -> Self {
+        assert_eq!(self.columns, other.rows);
+        let mut product = Self::zero(self.rows, other.columns);
+        for i in 0..self.rows {
+            for j in 0..other.columns {
+                product.elements[i * other.columns + j] =
+                    (0..self.columns).map(|k| self.at(i, k) * other.at(k, j)).sum();
+            }
+        }
+        product
+    }
+
+    /// self + c·other
+    pub fn plus(&self, c: f64, other: &Self) -> Self {
+        assert_eq!((self.rows, self.columns), (other.rows, other.columns));
+        let mut sum = self.clone();
+        sum.elements.iter_mut().zip(&other.elements).for_each(|(x, y)| *x += c * y);
+        sum
+    }
+
+    pub fn scaled(&self, c: f64) -> Self {
+        c * self.clone()
+    }
+
+    /// The mean of it and its transpose.
+    pub fn symmetric(&self) -> Self {
+        self.plus(1.0, &self.transpose()).scaled(0.5)
     }
 
     /// The largest magnitude.
@@ -88,9 +121,14 @@ impl Dense {
         l
     }
 
-    /// The eigenvalues of a symmetric matrix in ascending order, by Jacobi's rotations.
+    /// The eigenvalues of a symmetric matrix in ascending order.
     pub fn eigenvalues(&self) -> Vec<f64> {
-        let (n, mut a) = (self.rows, self.clone());
+        self.eigen().0
+    }
+
+    /// They, and the eigenvectors as columns, by Jacobi's rotations.
+    pub fn eigen(&self) -> (Vec<f64>, Self) {
+        let (n, mut a, mut v) = (self.rows, self.symmetric(), Self::identity(self.rows));
         let mut rotated = true;
         for _ in 0..60 {
             if !core::mem::take(&mut rotated) {
@@ -99,49 +137,44 @@ impl Dense {
             for (p, q) in (0..n).flat_map(|p| (p + 1..n).map(move |q| (p, q))) {
                 let size = (a.at(p, p) * a.at(q, q)).abs().sqrt();
                 if a.at(p, q).abs() > 1e-17 * size {
-                    a.rotate(p, q);
+                    a.rotate(p, q, &mut v);
                     rotated = true;
                 }
             }
         }
-        let mut values: Vec<f64> = (0..n).map(|i| a.at(i, i)).collect();
-        values.sort_by(f64::total_cmp);
-        values
+        let mut order: Vec<usize> = (0..n).collect();
+        order.sort_by(|&i, &j| a.at(i, i).total_cmp(&a.at(j, j)));
+        let vectors: Vec<f64> = (0..n * n).map(|k| v.at(k / n, order[k % n])).collect();
+        (order.iter().map(|&i| a.at(i, i)).collect(), Self::new(n, &vectors))
     }
 
-    /// Makes the element at p, q zero by a rotation of both rows and both columns.
-    fn rotate(&mut self, p: usize, q: usize) {
+    /// Makes the element at p, q zero by a rotation of both rows and both columns, and turns the columns
+    /// of `vectors` with them.
+    fn rotate(&mut self, p: usize, q: usize, vectors: &mut Self) {
         let n = self.rows;
         let zeta = (self.at(q, q) - self.at(p, p)) / (2.0 * self.at(p, q));
         let t = zeta.signum() / (zeta.abs() + zeta.hypot(1.0));
         let (c, s) = (1.0 / t.hypot(1.0), t / t.hypot(1.0));
-        let mut turn = |x: usize, y: usize| {
-            let (a, b) = (self.elements[x], self.elements[y]);
-            (self.elements[x], self.elements[y]) = (c * a - s * b, s * a + c * b);
+        let turn = |m: &mut Self, x: usize, y: usize| {
+            let (a, b) = (m.elements[x], m.elements[y]);
+            (m.elements[x], m.elements[y]) = (c * a - s * b, s * a + c * b);
         };
-        (0..n).for_each(|k| turn(p * n + k, q * n + k));
-        (0..n).for_each(|k| turn(k * n + p, k * n + q));
+        (0..n).for_each(|k| turn(self, p * n + k, q * n + k));
+        (0..n).for_each(|k| turn(self, k * n + p, k * n + q));
+        (0..n).for_each(|k| turn(vectors, k * n + p, k * n + q));
         (self.elements[p * n + q], self.elements[q * n + p]) = (0.0, 0.0);
     }
 
     /// How far apart two matrices are, relative to the second.
     pub fn distance(&self, other: &Self) -> f64 {
-        (self.clone() - other.clone()).size() / other.size().max(f64::MIN_POSITIVE)
+        self.plus(-1.0, other).size() / other.size().max(f64::MIN_POSITIVE)
     }
 }
 
 impl Mul for Dense {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
-        assert_eq!(self.columns, other.rows);
-        let mut product = Self::zero(self.rows, other.columns);
-        for i in 0..self.rows {
-            for j in 0..other.columns {
-                product.elements[i * other.columns + j] =
-                    (0..self.columns).map(|k| self.at(i, k) * other.at(k, j)).sum();
-            }
-        }
-        product
+        self.times(&other)
     }
 }
 
@@ -155,15 +188,14 @@ impl Mul<Dense> for f64 {
 
 impl Add for Dense {
     type Output = Self;
-    fn add(mut self, other: Self) -> Self {
-        self.elements.iter_mut().zip(&other.elements).for_each(|(x, y)| *x += y);
-        self
+    fn add(self, other: Self) -> Self {
+        self.plus(1.0, &other)
     }
 }
 
 impl Sub for Dense {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
-        self + (-1.0) * other
+        self.plus(-1.0, &other)
     }
 }

@@ -13,9 +13,9 @@ fn forget(information: &Dense, factors: &[f64], blocks: &[usize]) -> Dense {
     }
     let element = |i: usize, j: usize| {
         let kept = if block_of[i] == block_of[j] { factors[block_of[i]] } else { 0.0 };
-        kept * information.get(i, j)
+        kept * information.at(i, j)
     };
-    Dense::new(n, n, (0..n * n).map(|k| element(k / n, k % n)).collect())
+    Dense::new(n, &(0..n * n).map(|k| element(k / n, k % n)).collect::<Vec<f64>>())
 }
 
 fn step(factors: Vec<f64>, blocks: Vec<usize>) -> impl FnMut(&mut Published, &Dense, &Dense) {
@@ -78,26 +78,26 @@ fn equals_the_printed_equations_for_two_parameters() {
     let (mut r, mut theta) = ([0.25, 0.25], [0.0, 0.0]);
     for (phi, y) in record(Input::Exciting, 100, 2, 1) {
         update(&mut ours, &phi, &y);
-        let (f, lambda) = (&phi.at, [0.9, 0.97]);
-        let error = y.at[0] - f[0] * theta[0] - f[1] * theta[1];
+        let (f, lambda) = (&phi.elements, [0.9, 0.97]);
+        let error = y.elements[0] - f[0] * theta[0] - f[1] * theta[1];
         let share = [f[0] / (lambda[0] * r[0]), f[1] / (lambda[1] * r[1])];
         let total = 1.0 + f[0] * share[0] + f[1] * share[1];
         for i in 0..2 {
             theta[i] += share[i] / total * error;
             r[i] = lambda[i] * r[i] + f[i] * f[i];
         }
-        assert!(result(&ours).0.distance(&Dense::new(2, 1, theta.to_vec())) < 1e-13);
+        assert!(result(&ours).0.distance(&Dense::new(2, &theta)) < 1e-13);
     }
 }
 
 /// A prior with correlations: R₀'s blocks are kept, not P₀'s.
 #[test]
 fn starts_from_the_blocks_of_the_information() {
-    let prior = Dense::new(3, 3, vec![2.0, 0.9, 0.3, 0.9, 1.0, -0.2, 0.3, -0.2, 0.7]);
+    let prior = Dense::new(3, &[2.0, 0.9, 0.3, 0.9, 1.0, -0.2, 0.3, -0.2, 0.7]);
     let memory = Dynamic::<f64>::new(3, 1, 1).unwrap();
     for blocks in [vec![1, 1, 1], vec![1, 2], vec![2, 1], vec![3]] {
         let factors = vec![0.95; blocks.len()];
-        let start = Prior::dense(memory, &prior.at).unwrap();
+        let start = Prior::dense(memory, &prior.elements).unwrap();
         let rule = rule::<f64>(&factors, &blocks, 1);
         let mut ours = Estimator::new(rule, Constant::new(1.0).unwrap(), Equal::new(), start);
         let mut theirs = Published::new(3, 1.0);

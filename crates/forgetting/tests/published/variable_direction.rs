@@ -25,7 +25,7 @@ fn forget(covariance: &Dense, phi: &Dense, threshold: f64, lambda: f64, epsilon:
         for (j, square) in squares.iter().enumerate() {
             if square.max(0.0).sqrt() > threshold {
                 let q = basis.times(&columns(&turn, j..j + 1));
-                let variance = q.transpose().times(&covariance.times(&q)).get(0, 0);
+                let variance = q.transpose().times(&covariance.times(&q)).at(0, 0);
                 let weight = variance * (1.0 - lambda) / lambda;
                 widened = widened.plus(weight, &q.times(&q.transpose()));
             }
@@ -37,8 +37,8 @@ fn forget(covariance: &Dense, phi: &Dense, threshold: f64, lambda: f64, epsilon:
 
 fn columns(a: &Dense, range: std::ops::Range<usize>) -> Dense {
     let width = range.len();
-    let at = (0..a.rows * width).map(|k| a.get(k / width, range.start + k % width)).collect();
-    Dense::new(a.rows, width, at)
+    let element = |k| a.at(k / width, range.start + k % width);
+    Dense::new(a.rows, &(0..a.rows * width).map(element).collect::<Vec<f64>>())
 }
 
 /// The largest distance of θ and P from the published form over a record.
@@ -117,13 +117,9 @@ fn clusters_of_nearly_equal_eigenvalues_follow_the_sample() {
 #[test]
 fn does_not_depend_on_the_axes() {
     let n = 4;
-    let (_, turn) = Dense::new(
-        n,
-        n,
-        (0..n * n).map(|k| ((k / n + k % n) as f64).sin() + f64::from(k / n == k % n)).collect(),
-    )
-    .symmetric()
-    .eigen();
+    let element = |k: usize| ((k / n + k % n) as f64).sin() + f64::from(k / n == k % n);
+    let elements: Vec<f64> = (0..n * n).map(element).collect();
+    let (_, turn) = Dense::new(n, &elements).eigen();
     let memory = Dynamic::<f64>::new(n, 1, 1).unwrap();
     let rule = VariableDirection::new(1e-3).unwrap();
     let mut straight = estimator(rule, LAMBDA, memory, VARIANCE);
@@ -148,20 +144,20 @@ fn what_is_not_excited_is_retained_at_condition_1e14() {
     let unseen = [[0.5, 0.5, 0.5, 0.5, 0.0, 0.0], [0.5, -0.5, 0.5, -0.5, 0.0, 0.0]];
     for (mut phi, _) in record(Input::Exciting, 3000, n, 1) {
         for v in &unseen {
-            let along: f64 = phi.at.iter().zip(v).map(|(x, v)| x * v).sum();
-            phi.at.iter_mut().zip(v).for_each(|(x, v)| *x -= along * v);
+            let along: f64 = phi.elements.iter().zip(v).map(|(x, v)| x * v).sum();
+            phi.elements.iter_mut().zip(v).for_each(|(x, v)| *x -= along * v);
         }
         let phi = phi.scaled(100.0);
-        update(&mut ours, &phi, &Dense::new(1, 1, vec![phi.at[4]]));
+        update(&mut ours, &phi, &Dense::new(1, &[phi.elements[4]]));
     }
     let (theta, covariance) = result(&ours);
     for v in &unseen {
-        let v = Dense::new(n, 1, v.to_vec());
-        let variance = v.transpose().times(&covariance.times(&v)).get(0, 0);
+        let v = Dense::new(n, v);
+        let variance = v.transpose().times(&covariance.times(&v)).at(0, 0);
         assert!((variance / 1e9 - 1.0).abs() < 1e-9, "{variance:e}");
     }
     let excited =
         1.0 / ours.factor().information_along(&[0.0, 0.0, 0.0, 0.0, 1.0, 0.0], &mut [0.0; 6]);
     assert!(excited < 1e-4 && excited > 1e-6, "{excited:e}");
-    assert!((theta.at[4] - 1.0).abs() < 1e-6);
+    assert!((theta.elements[4] - 1.0).abs() < 1e-6);
 }
