@@ -33,7 +33,7 @@ rust:
 	cargo test --package forgetting --package forgetting-cpu --quiet
 
 python: build
-	$(BIN)/pytest
+	$(BIN)/pytest -n auto
 
 build: $(VENV)/ready
 	. $(BIN)/activate && maturin develop --release --quiet

@@ -23,7 +23,7 @@ BAD_ARGUMENTS = [
         {"forgetting_factor": 0.9, "rule": fg.Exponential(fg.Fortescue())},
         r"forgetting_factor is given twice: the rule has the rate fortescue",
     ),
-    ({"gate": lambda evidence: "update"}, r"a fleet takes no function of yours"),
+    ({"gate": print}, r"a fleet takes no function of yours"),
     ({"gate": "nonsense"}, r'gate = "nonsense" is not known'),
     ({"weighting": "nonsense"}, r'weighting = "nonsense" is not known'),
     ({"initial_covariance": -1}, r"initial_covariance\[0\] = -1, allowed: positive"),
