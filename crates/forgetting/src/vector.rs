@@ -56,7 +56,7 @@ pub trait Abreast<T: Real>: Lane<T> {
     fn at(number: impl Fn(usize) -> T) -> Self;
     /// Asks memory for what will be needed soon, where a machine has an instruction for that.
     #[inline(always)]
-    fn expect<L>(_line: &L) {}
+    fn prefetch<L>(_line: &L) {}
 }
 
 impl<T: Real> Abreast<T> for T {

@@ -185,6 +185,37 @@ fn above_the_difference_is_rounding() {
     assert!(most[0] < ROUNDING[0] && most[1] < ROUNDING[1], "{most:?}");
 }
 
+/// Masked, missing, refused or in the dead zone: every number stays, bit for bit.
+fn what_is_left_out_stays<T: Real>(rule: &str, n: usize) {
+    let mut fleet = fleet::<T>(rule, n, 0.95);
+    let (mut skipped, mut codes) = (vec![0; COUNT], Vec::new());
+    for step in 0..60 {
+        let Given { phi, y, mask } = given::<T>(step, n);
+        let before: Vec<_> = (0..COUNT).map(|i| fleet.get(i).to_bytes().unwrap()).collect();
+        let told = Told { error: None, leverage: None, skipped: Some(&mut skipped) };
+        fleet.update(Samples { phi: &phi, y: &y, mask: Some(&mask) }, told).unwrap();
+        for (i, before) in before.iter().enumerate().filter(|&(i, _)| skipped[i] != 0) {
+            let after = fleet.get(i).to_bytes().unwrap();
+            assert_eq!(&after, before, "{rule}, n = {n}, stream {i}, step {step}");
+            codes.push(skipped[i]);
+        }
+    }
+    codes.sort_unstable();
+    codes.dedup();
+    let dead_zone = usize::from(["subspace", "directional"].contains(&rule));
+    assert_eq!(codes.len(), 2 + dead_zone, "{rule}, n = {n}: {codes:?}");
+}
+
+#[test]
+fn a_stream_that_is_left_out_stays_bit_for_bit() {
+    for rule in RULES {
+        for n in [3, 10, 11, 12, 17] {
+            what_is_left_out_stays::<f64>(rule, n);
+            what_is_left_out_stays::<f32>(rule, n);
+        }
+    }
+}
+
 /// P grows until there is no room: the bound is made tight as often as an estimator does, and in
 /// the end the sample is refused.
 #[test]

@@ -146,7 +146,7 @@ macro_rules! abreast {
                 Self::read(&core::array::from_fn::<_, $count, _>(number))
             }
             #[inline(always)]
-            fn expect<L>(line: &L) {
+            fn prefetch<L>(line: &L) {
                 // SAFETY: an address is all that it takes
                 unsafe { _mm_prefetch::<_MM_HINT_T0>(core::ptr::from_ref(line).cast()) }
             }

@@ -63,7 +63,7 @@ fn few<T: Real, V: Vector<T>, const N: usize>(task: &mut Advance<'_, '_, '_, T>)
         let (lines, later) = rest.split_at_mut(length);
         // a block is long: without this, memory waits until it is done
         for line in later.iter().skip((AHEAD - 1) * length).take(length) {
-            V::Abreast::expect(line);
+            V::Abreast::prefetch(line);
         }
         rest = later;
         let streams = block * lanes..block * lanes + rows.len();

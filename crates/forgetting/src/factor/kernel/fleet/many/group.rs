@@ -51,6 +51,7 @@ pub struct Group<'a, T: Real, A, const C: usize> {
     lanes: PhantomData<A>,
 }
 
+#[inline(always)]
 fn none<'a, T: Real>() -> &'a mut [Line<T>] {
     &mut []
 }
@@ -66,26 +67,6 @@ impl<'a, T: Real, A: Abreast<T>, const C: usize> Group<'a, T, A, C> {
             lines = rest;
         }
         Self { first, lane, rows, corner, lanes: PhantomData }
-    }
-
-    #[inline(always)]
-    fn row(&self, j: usize, i: usize) -> A {
-        read(&self.rows[j][i], self.lane)
-    }
-
-    #[inline(always)]
-    fn set_row(&mut self, j: usize, i: usize, u: A) {
-        write(&mut self.rows[j][i], self.lane, u);
-    }
-
-    #[inline(always)]
-    fn corner(&self, j: usize, i: usize) -> A {
-        read(&self.corner[j][i], self.lane)
-    }
-
-    #[inline(always)]
-    fn set_corner(&mut self, j: usize, i: usize, u: A) {
-        write(&mut self.corner[j][i], self.lane, u);
     }
 
     /// A number for each column.
@@ -106,12 +87,14 @@ impl<'a, T: Real, A: Abreast<T>, const C: usize> Group<'a, T, A, C> {
         for i in 0..self.first {
             let f: A = get(above, i);
             for j in 0..C {
-                w[j] = self.row(j, i).mul_add(f, w[j]);
+                let u: A = read(&self.rows[j][i], self.lane);
+                w[j] = u.mul_add(f, w[j]);
             }
         }
         for j in 0..C {
             for i in 0..j {
-                w[j] = self.corner(j, i).mul_add(own[i], w[j]);
+                let u: A = read(&self.corner[j][i], self.lane);
+                w[j] = u.mul_add(own[i], w[j]);
             }
             put(work.w, self.first + j, w[j]);
         }
@@ -125,14 +108,14 @@ impl<'a, T: Real, A: Abreast<T>, const C: usize> Group<'a, T, A, C> {
             put(work.z, self.first + j, less[j]);
             less[j] = -less[j];
             for i in 0..j {
-                less[i] = less[j].mul_add(self.corner(j, i), less[i]);
+                less[i] = less[j].mul_add(read(&self.corner[j][i], self.lane), less[i]);
             }
         }
         let above = &mut work.z[..self.first];
         for i in 0..self.first {
             let mut z: A = get(above, i);
             for j in (0..C).rev() {
-                z = less[j].mul_add(self.row(j, i), z);
+                z = less[j].mul_add(read(&self.rows[j][i], self.lane), z);
             }
             put(above, i, z);
         }
@@ -141,24 +124,21 @@ impl<'a, T: Real, A: Abreast<T>, const C: usize> Group<'a, T, A, C> {
     /// The columns after the measurement.
     #[inline(always)]
     pub fn measure(&mut self, work: &mut Work<'_, T>) {
-        let (w, v) = (self.several(work.w), self.several(work.v));
-        let inverse = self.several(work.inverse);
+        let turns = self.turns(work);
         let above = &mut work.k[..self.first];
         for i in 0..self.first {
             let mut k: A = get(above, i);
             for j in 0..C {
-                let before = self.row(j, i);
-                self.set_row(j, i, (-(w[j] * k)).mul_add(inverse[j], before));
-                k = v[j].mul_add(before, k);
+                let u = &mut self.rows[j][i];
+                write(u, self.lane, turns[j].measure(read(u, self.lane), &mut k));
             }
             put(above, i, k);
         }
         for i in 0..C {
-            let mut k = v[i];
+            let mut k = turns[i].v;
             for j in i + 1..C {
-                let before = self.corner(j, i);
-                self.set_corner(j, i, (-(w[j] * k)).mul_add(inverse[j], before));
-                k = v[j].mul_add(before, k);
+                let u = &mut self.corner[j][i];
+                write(u, self.lane, turns[j].measure(read(u, self.lane), &mut k));
             }
             put(work.k, self.first + i, k);
         }
@@ -167,33 +147,67 @@ impl<'a, T: Real, A: Abreast<T>, const C: usize> Group<'a, T, A, C> {
     /// The columns after P ← P + c·fᵀf and the measurement.
     #[inline(always)]
     pub fn widen_and_measure(&mut self, work: &mut Work<'_, T>) {
-        let (z, slope) = (self.several(work.z), self.several(work.slope));
-        let (w, v) = (self.several(work.w), self.several(work.v));
-        let inverse = self.several(work.inverse);
+        let (z, slope, turns) = (self.several(work.z), self.several(work.slope), self.turns(work));
         let (above_x, above_k) = (&mut work.x[..self.first], &mut work.k[..self.first]);
         for i in 0..self.first {
             let (mut x, mut k): (A, A) = (get(above_x, i), get(above_k, i));
             for j in 0..C {
-                let before = self.row(j, i);
-                let widened = slope[j].mul_add(x, before);
-                x = z[j].mul_add(before, x);
-                self.set_row(j, i, (-(w[j] * k)).mul_add(inverse[j], widened));
-                k = v[j].mul_add(widened, k);
+                let u = &mut self.rows[j][i];
+                let widened = widen(read(u, self.lane), (slope[j], z[j]), &mut x);
+                write(u, self.lane, turns[j].measure(widened, &mut k));
             }
             put(above_x, i, x);
             put(above_k, i, k);
         }
         for i in 0..C {
-            let (mut x, mut k) = (z[i], v[i]);
+            let (mut x, mut k) = (z[i], turns[i].v);
             for j in i + 1..C {
-                let before = self.corner(j, i);
-                let widened = slope[j].mul_add(x, before);
-                x = z[j].mul_add(before, x);
-                self.set_corner(j, i, (-(w[j] * k)).mul_add(inverse[j], widened));
-                k = v[j].mul_add(widened, k);
+                let u = &mut self.corner[j][i];
+                let widened = widen(read(u, self.lane), (slope[j], z[j]), &mut x);
+                write(u, self.lane, turns[j].measure(widened, &mut k));
             }
             put(work.x, self.first + i, x);
             put(work.k, self.first + i, k);
         }
     }
+
+    #[inline(always)]
+    fn turns(&self, work: &Work<'_, T>) -> [Turn<A>; C] {
+        let zero = A::splat(T::ZERO);
+        let mut turns = [Turn { w: zero, v: zero, inverse: zero }; C];
+        for j in 0..C {
+            let c = self.first + j;
+            turns[j] = Turn { w: get(work.w, c), v: get(work.v, c), inverse: get(work.inverse, c) };
+        }
+        turns
+    }
+}
+
+/// What the measurement does to a column.
+#[derive(Clone, Copy)]
+struct Turn<A> {
+    w: A,
+    v: A,
+    inverse: A,
+}
+
+impl<A: Copy> Turn<A> {
+    /// A number of the column after it, and the gain of its row.
+    #[inline(always)]
+    fn measure<T: Real>(self, before: A, k: &mut A) -> A
+    where
+        A: Abreast<T>,
+    {
+        let after = (-(self.w * *k)).mul_add(self.inverse, before);
+        *k = self.v.mul_add(before, *k);
+        after
+    }
+}
+
+/// A number of a column after P ← P + c·fᵀf, and the x of its row.
+#[inline(always)]
+fn widen<T: Real, A: Abreast<T>>(before: A, (slope, z): (A, A), x: &mut A) -> A {
+    let after = slope.mul_add(*x, before);
+    *x = z.mul_add(before, *x);
+    after
 }
