@@ -124,21 +124,24 @@ impl<'a, T: Real, A: Abreast<T>, const C: usize> Group<'a, T, A, C> {
     /// The columns after the measurement.
     #[inline(always)]
     pub fn measure(&mut self, work: &mut Work<'_, T>) {
-        let turns = self.turns(work);
+        let (w, v) = (self.several(work.w), self.several(work.v));
+        let inverse = self.several(work.inverse);
         let above = &mut work.k[..self.first];
         for i in 0..self.first {
             let mut k: A = get(above, i);
             for j in 0..C {
                 let u = &mut self.rows[j][i];
-                write(u, self.lane, turns[j].measure(read(u, self.lane), &mut k));
+                let before = read(u, self.lane);
+                write(u, self.lane, measured(before, (w[j], v[j], inverse[j]), &mut k));
             }
             put(above, i, k);
         }
         for i in 0..C {
-            let mut k = turns[i].v;
+            let mut k = v[i];
             for j in i + 1..C {
                 let u = &mut self.corner[j][i];
-                write(u, self.lane, turns[j].measure(read(u, self.lane), &mut k));
+                let before = read(u, self.lane);
+                write(u, self.lane, measured(before, (w[j], v[j], inverse[j]), &mut k));
             }
             put(work.k, self.first + i, k);
         }
@@ -147,66 +150,44 @@ impl<'a, T: Real, A: Abreast<T>, const C: usize> Group<'a, T, A, C> {
     /// The columns after P ← P + c·fᵀf and the measurement.
     #[inline(always)]
     pub fn widen_and_measure(&mut self, work: &mut Work<'_, T>) {
-        let (z, slope, turns) = (self.several(work.z), self.several(work.slope), self.turns(work));
+        let (z, slope) = (self.several(work.z), self.several(work.slope));
+        let (w, v) = (self.several(work.w), self.several(work.v));
+        let inverse = self.several(work.inverse);
         let (above_x, above_k) = (&mut work.x[..self.first], &mut work.k[..self.first]);
         for i in 0..self.first {
             let (mut x, mut k): (A, A) = (get(above_x, i), get(above_k, i));
             for j in 0..C {
                 let u = &mut self.rows[j][i];
-                let widened = widen(read(u, self.lane), (slope[j], z[j]), &mut x);
-                write(u, self.lane, turns[j].measure(widened, &mut k));
+                let before = widened(read(u, self.lane), (slope[j], z[j]), &mut x);
+                write(u, self.lane, measured(before, (w[j], v[j], inverse[j]), &mut k));
             }
             put(above_x, i, x);
             put(above_k, i, k);
         }
         for i in 0..C {
-            let (mut x, mut k) = (z[i], turns[i].v);
+            let (mut x, mut k) = (z[i], v[i]);
             for j in i + 1..C {
                 let u = &mut self.corner[j][i];
-                let widened = widen(read(u, self.lane), (slope[j], z[j]), &mut x);
-                write(u, self.lane, turns[j].measure(widened, &mut k));
+                let before = widened(read(u, self.lane), (slope[j], z[j]), &mut x);
+                write(u, self.lane, measured(before, (w[j], v[j], inverse[j]), &mut k));
             }
             put(work.x, self.first + i, x);
             put(work.k, self.first + i, k);
         }
     }
-
-    #[inline(always)]
-    fn turns(&self, work: &Work<'_, T>) -> [Turn<A>; C] {
-        let zero = A::splat(T::ZERO);
-        let mut turns = [Turn { w: zero, v: zero, inverse: zero }; C];
-        for j in 0..C {
-            let c = self.first + j;
-            turns[j] = Turn { w: get(work.w, c), v: get(work.v, c), inverse: get(work.inverse, c) };
-        }
-        turns
-    }
 }
 
-/// What the measurement does to a column.
-#[derive(Clone, Copy)]
-struct Turn<A> {
-    w: A,
-    v: A,
-    inverse: A,
-}
-
-impl<A: Copy> Turn<A> {
-    /// A number of the column after it, and the gain of its row.
-    #[inline(always)]
-    fn measure<T: Real>(self, before: A, k: &mut A) -> A
-    where
-        A: Abreast<T>,
-    {
-        let after = (-(self.w * *k)).mul_add(self.inverse, before);
-        *k = self.v.mul_add(before, *k);
-        after
-    }
+/// A number of a column after the measurement, and the gain of its row.
+#[inline(always)]
+fn measured<T: Real, A: Abreast<T>>(before: A, (w, v, inverse): (A, A, A), k: &mut A) -> A {
+    let after = (-(w * *k)).mul_add(inverse, before);
+    *k = v.mul_add(before, *k);
+    after
 }
 
 /// A number of a column after P ← P + c·fᵀf, and the x of its row.
 #[inline(always)]
-fn widen<T: Real, A: Abreast<T>>(before: A, (slope, z): (A, A), x: &mut A) -> A {
+fn widened<T: Real, A: Abreast<T>>(before: A, (slope, z): (A, A), x: &mut A) -> A {
     let after = slope.mul_add(*x, before);
     *x = z.mul_add(before, *x);
     after
