@@ -1,12 +1,16 @@
 //! Numbers whose multiply-add rounds once.
 
-use crate::level::run;
+use crate::level::Machine;
 use bytemuck::TransparentWrapper;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
-use forgetting::vector::Lanes;
-use forgetting::{copy_some, Kernel, Real};
+use forgetting_kernels::compile_kernels;
+use forgetting_kernels::number::vector::Lanes;
+use forgetting_kernels::number::{copy_some, Real};
 
 /// An `f64` or `f32` whose `mul_add` is fused: it rounds once.
+///
+/// For machines with fused multiply-add ([`level`](crate::level) says so); on others the loops
+/// panic, unless the feature `portable` is on.
 ///
 /// ```
 /// use bytemuck::TransparentWrapper;
@@ -117,13 +121,12 @@ macro_rules! fused {
             fn is_finite(self) -> bool {
                 self.0.is_finite()
             }
-            #[inline(always)]
-            fn compute<K: Kernel<Self>>(kernel: K) -> K::Output {
-                run(kernel)
-            }
         }
     };
 }
 
 fused!(f64, 8);
 fused!(f32, 16);
+
+compile_kernels!(Fused<f64>, Machine);
+compile_kernels!(Fused<f32>, Machine);

@@ -1,9 +1,9 @@
 //! What the machine can do, found out once.
 
 #[cfg(target_arch = "x86_64")]
-use forgetting::factor::kernel::FEW;
-use forgetting::vector::Vector;
-use forgetting::{Kernel, Real};
+use forgetting_kernels::kernel::layout::FEW;
+use forgetting_kernels::number::vector::Vector;
+use forgetting_kernels::{Dispatch, Kernel, Real};
 use std::sync::atomic::{AtomicU8, Ordering};
 
 /// A set of instructions, each with those before it.
@@ -83,25 +83,37 @@ pub trait Vectors: Real {
     type Wide: Vector<Self>;
 }
 
-/// Runs `kernel` with the instructions of [`level`].
-#[inline(always)]
+/// Runs loops with the instructions of [`level`].
+#[derive(Clone, Copy, Debug)]
+pub struct Machine;
+
 #[cfg(target_arch = "x86_64")]
-pub(crate) fn run<T: Vectors, K: Kernel<T>>(kernel: K) -> K::Output {
-    match level() {
-        // SAFETY: the level says that the machine has AVX-512 F, DQ and VL, AVX2 and FMA
-        Level::Wide if kernel.size() > FEW => unsafe { run_wide(kernel) },
-        Level::Baseline => run_baseline(kernel),
-        // SAFETY: the level says that the machine has AVX2 and FMA
-        _ => unsafe { run_fused(kernel) },
+impl<T: Vectors> Dispatch<T> for Machine {
+    #[inline(always)]
+    fn run<K: Kernel<T>>(kernel: K) -> K::Output {
+        match level() {
+            // SAFETY: the level says that the machine has AVX-512 F, DQ and VL, AVX2 and FMA
+            Level::Wide if kernel.size() > FEW => unsafe { run_wide(kernel) },
+            Level::Baseline => run_baseline(kernel),
+            // SAFETY: the level says that the machine has AVX2 and FMA
+            _ => unsafe { run_fused(kernel) },
+        }
     }
 }
 
 // each once for all places that call it
 
-#[cfg(target_arch = "x86_64")]
+#[cfg(all(target_arch = "x86_64", feature = "portable"))]
 #[inline(never)]
 fn run_baseline<T: Vectors, K: Kernel<T>>(kernel: K) -> K::Output {
     kernel.run::<T::Lanes, 2>()
+}
+
+#[cfg(all(target_arch = "x86_64", not(feature = "portable")))]
+#[cold]
+#[inline(never)]
+fn run_baseline<T: Vectors, K: Kernel<T>>(_: K) -> K::Output {
+    panic!("this machine has no fused multiply-add, or the environment forbids it: use f64 or f32")
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -118,9 +130,11 @@ fn run_fused<T: Vectors, K: Kernel<T>>(kernel: K) -> K::Output {
     kernel.run::<T::Fused, 4>()
 }
 
-/// Runs `kernel`: every aarch64 has NEON and fused multiply-add.
-#[inline(never)]
+/// Every aarch64 has NEON and fused multiply-add.
 #[cfg(not(target_arch = "x86_64"))]
-pub(crate) fn run<T: Real, K: Kernel<T>>(kernel: K) -> K::Output {
-    kernel.run::<T::Lanes, 4>()
+impl<T: Real> Dispatch<T> for Machine {
+    #[inline(always)]
+    fn run<K: Kernel<T>>(kernel: K) -> K::Output {
+        kernel.run::<T::Lanes, 4>()
+    }
 }

@@ -2,7 +2,7 @@
 
 use crate::errors::invalid;
 use bytemuck::{TransparentWrapper, TransparentWrapperAlloc};
-use forgetting::Real;
+use forgetting::Kernels;
 use forgetting_cpu::Fused;
 use numpy::{
     Element, IxDyn, PyArray, PyArrayDescr, PyArrayDyn, PyArrayMethods, PyUntypedArray,
@@ -24,7 +24,7 @@ pub trait Stored: Sized {
 }
 
 /// A number type to compute with.
-pub trait Number: Real + Stored {
+pub trait Number: Kernels + Stored {
     /// the name of NumPy's type
     const DTYPE: &'static str;
     /// NumPy's type, which it makes once.

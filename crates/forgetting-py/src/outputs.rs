@@ -2,9 +2,9 @@
 
 use crate::arrays::{shaped, Number, Stored};
 use crate::errors::invalid;
-use forgetting::factor::kernel::Told;
 use forgetting::gates::Answer;
 use forgetting::saved::AnyEstimator;
+use forgetting::Outcome;
 use forgetting::{Dynamic, Factor, Memory, Skip, Update};
 use pyo3::prelude::*;
 
@@ -151,7 +151,7 @@ impl<T: Number> Outputs<T> {
     }
 
     /// What samples of one row and one target told.
-    pub fn note_all(&mut self, estimator: &AnyEstimator<T>, told: &[Told<T>]) {
+    pub fn note_all(&mut self, estimator: &AnyEstimator<T>, told: &[Outcome<T>]) {
         if let Some(error) = &mut self.error {
             error.extend(told.iter().map(|told| told.error));
         }

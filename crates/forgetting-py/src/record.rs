@@ -4,8 +4,8 @@ use crate::arrays::{contiguous, Array, Number};
 use crate::callable::calls_python;
 use crate::errors::{invalid, raise_at};
 use crate::outputs::{Outputs, Run, Sizes};
-use forgetting::factor::kernel::Told;
 use forgetting::saved::AnyEstimator;
+use forgetting::Outcome;
 use forgetting::{Error, Memory, Noise};
 use numpy::PyArrayMethods;
 use pyo3::prelude::*;
@@ -173,7 +173,7 @@ fn several<T: Number>(
     if !matches!(noise, RecordNoise::Unit) || outputs.need_every_state() {
         return 0;
     }
-    let mut told = [Told::default(); MOST];
+    let mut told = [Outcome::default(); MOST];
     let (most, n) = (MOST.min(y.len()), estimator.theta().len());
     let taken = outputs
         .with_thetas((most, n), |thetas| estimator.advance(phi, y, &mut told[..most], thetas));

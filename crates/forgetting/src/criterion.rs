@@ -1,10 +1,10 @@
 //! When to start afresh: the criteria of `covariance_resetting`.
 
-use crate::factor::kernel::{add_scaled, dot};
 use crate::parameter::{Parameter, Range, Value, Values};
 use crate::sample::cholesky;
 use crate::state::{is_finite, State, Visitor};
 use crate::{Error, Factor, Memory, Real, Sample};
+use forgetting_kernels::kernel::functions::{add_scaled, dot};
 
 /// Which criterion.
 pub const CRITERION: Parameter = Parameter::word(

@@ -1,8 +1,8 @@
 //! Forgetting along the rows of a sample, for the rules that decompose the information matrix.
 
-use crate::factor::kernel::{add_scaled, dot};
 use crate::rules::Step;
 use crate::{Error, Memory, Real};
+use forgetting_kernels::kernel::functions::{add_scaled, dot};
 
 /// P ← P + (1 − λ)/λ · φ̄ᵀ (φ̄ R φ̄ᵀ)⁺ φ̄ over the rows of the sample; returns the rank of φ̄ R φ̄ᵀ.
 ///

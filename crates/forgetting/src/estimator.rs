@@ -7,16 +7,17 @@
 //! ```
 
 use crate::between::Between;
-use crate::factor::kernel::Told;
-use crate::factor::Form;
 use crate::gates::{Answer, AnyGate, Gate, Open};
 use crate::intake::{Intake, Noise};
-use crate::monitor::{Monitor, Seen};
+use crate::monitor::Monitor;
 use crate::rates::Rate;
 use crate::rules::{Forgetting, Forgotten, Skip};
 use crate::update::{Update, Whitened};
 use crate::weighting::Weighting;
 use crate::{Error, Factor, Memory, Prior, Real, Work};
+use forgetting_kernels::kernel::form::Form;
+use forgetting_kernels::kernel::outcome::Outcome;
+use forgetting_kernels::kernel::watch::Observations;
 
 mod held;
 mod steps;
@@ -174,7 +175,7 @@ where
         noise: Noise<'_, M::Real>,
     ) -> Result<Update<'_, M::Real>, Error> {
         let n = self.prior.memory().parameters();
-        let mut told = [Told::default()];
+        let mut told = [Outcome::default()];
         if phi.len() == n
             && y.len() == 1
             && matches!(noise, Noise::Unit)
@@ -199,7 +200,7 @@ where
         &mut self,
         phi: &[M::Real],
         y: &[M::Real],
-        told: &mut [Told<M::Real>],
+        told: &mut [Outcome<M::Real>],
         thetas: &mut [M::Real],
     ) -> usize {
         let Some(steady) = self.steady.filter(|_| !self.between.keeps_prior()) else { return 0 };
@@ -215,10 +216,10 @@ where
 
     /// Shows samples to the watch, and notes what it says of each.
     #[inline]
-    fn show(&mut self, lambda: M::Real, phi: &[M::Real], told: &mut [Told<M::Real>]) {
+    fn show(&mut self, lambda: M::Real, phi: &[M::Real], told: &mut [Outcome<M::Real>]) {
         let Some(monitor) = &mut self.monitor else { return };
-        let seen = Seen::of(lambda, self.factor.parameters(), phi, told);
-        let wound_up = monitor.watch(&self.factor, seen);
+        let samples = Observations { forgetting_factor: lambda, phi, outcomes: told };
+        let wound_up = monitor.watch(&self.factor, samples);
         told[..wound_up].iter_mut().for_each(|told| told.windup = true);
         if let Some(last) = told.last_mut() {
             last.windup = monitor.windup();
@@ -227,12 +228,12 @@ where
 
     /// What a sample told that [`Estimator::advance`] took.
     #[inline]
-    pub fn update_of<'a>(&self, told: &'a Told<M::Real>) -> Update<'a, M::Real> {
+    pub fn update_of<'a>(&self, told: &'a Outcome<M::Real>) -> Update<'a, M::Real> {
         self.tell(core::slice::from_ref(&told.error), told)
     }
 
     #[inline]
-    fn tell<'a>(&self, error: &'a [M::Real], told: &Told<M::Real>) -> Update<'a, M::Real> {
+    fn tell<'a>(&self, error: &'a [M::Real], told: &Outcome<M::Real>) -> Update<'a, M::Real> {
         let n = self.prior.memory().parameters();
         let (lambda, forgotten) = match self.steady {
             Some(Steady { lambda, form }) => (lambda, forgotten(form, told.forgot, n)),

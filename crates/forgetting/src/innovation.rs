@@ -1,7 +1,7 @@
 //! The innovation of several rows, whitened: L⁻¹ē with L Lᵀ = I + φ̄Pφ̄ᵀ.
 
-use crate::factor::kernel::{add_scaled, dot, multiply_transposed};
 use crate::{Factor, Memory, Real};
+use forgetting_kernels::kernel::functions::{add_scaled, dot, multiply_transposed};
 
 /// ē ← L⁻¹ē for p x n numbers `regressors` and p x m numbers `errors`; returns its squared length,
 /// tr ēᵀ(I + φ̄Pφ̄ᵀ)⁻¹ē. Uses p x n numbers `directions` and p x p numbers `identity`.

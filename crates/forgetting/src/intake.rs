@@ -1,9 +1,9 @@
 //! The sample as it comes in: checked, then whitened. Whatever is wrong with it is found here,
 //! before anything changes.
 
-use crate::factor::dense::check_symmetric;
-use crate::factor::kernel::{arrive, dot};
+use crate::covariance::dense::check_symmetric;
 use crate::{Error, Memory, Real, Sample};
+use forgetting_kernels::kernel::functions::{arrive, dot};
 
 /// The noise covariance Γ of one sample.
 #[derive(Clone, Copy, Debug)]

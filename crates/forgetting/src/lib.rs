@@ -21,16 +21,14 @@ extern crate std;
 
 mod between;
 mod blocks;
+pub mod covariance;
 pub mod criterion;
 mod directions;
-mod eight;
 mod error;
 mod estimator;
 mod evidence;
 #[cfg(feature = "alloc")]
 mod excitation;
-#[macro_use]
-pub mod factor;
 #[cfg(feature = "alloc")]
 pub mod fleet;
 #[cfg(feature = "alloc")]
@@ -38,47 +36,38 @@ pub mod function;
 pub mod gates;
 mod innovation;
 mod intake;
-mod lane;
 mod measure;
 mod memory;
 pub mod monitor;
 pub mod parameter;
-mod prior;
 mod range;
 pub mod rates;
-mod real;
-mod root;
 pub mod rules;
 mod sample;
 #[cfg(feature = "alloc")]
 pub mod saved;
-pub mod spectrum;
 pub mod state;
 #[cfg(test)]
 mod testing;
 mod update;
-pub mod vector;
 pub mod weighting;
 mod work;
 
 pub use blocks::Blocks;
-pub use eight::Eight;
+pub use covariance::{Factor, Prior};
 pub use error::Error;
 pub use estimator::Estimator;
 pub use evidence::{Evidence, Needs};
 #[cfg(feature = "alloc")]
 pub use excitation::Excitation;
-pub use factor::Factor;
+pub use forgetting_kernels::kernel::outcome::Outcome;
+pub use forgetting_kernels::{Kernels, Real};
 pub use intake::Noise;
-pub use lane::{Lane, One};
 #[cfg(feature = "alloc")]
 pub use memory::{Aligned, Dynamic};
 pub use memory::{Buffer, Fixed, Grid, Memory, Packed, Size};
 pub use monitor::Health;
-pub use prior::Prior;
 pub use rates::{Constant, Rate};
-pub use real::{copy_some, Kernel, Real};
-pub use root::Root;
 pub use rules::{Exponential, ExponentialResetting, Forgetting, NoForgetting, Skip, Subspace};
 pub use sample::Sample;
 pub use update::Update;

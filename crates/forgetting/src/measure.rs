@@ -1,7 +1,7 @@
 //! Measure and correct: R₊ = R̄ + φᵀΓ⁻¹φ and θ₊ = θ + R₊⁻¹φᵀΓ⁻¹(y − φθ).
 
-use crate::factor::kernel::{add_scaled, dot};
 use crate::{Factor, Memory, Real, Sample};
+use forgetting_kernels::kernel::functions::{add_scaled, dot};
 
 /// tr φ̄Pφ̄ᵀ
 #[inline]

@@ -18,17 +18,12 @@
 //! winds up becomes it, whichever units the parameters have. A block is N = max(10, 2n, half the
 //! memory) samples, so that what costs O(n²) is spread over as many samples.
 
-use crate::factor::kernel::Told;
 use crate::state::{is_finite, State, Visitor};
 use crate::{Factor, Memory, Real};
-use note::Note;
-use residual::Residual;
-use silence::Silence;
+use forgetting_kernels::kernel::watch::{Observation, Observations, Residual, Silence, Watch};
+use forgetting_kernels::Kernels;
 use weakest::Weakest;
 
-mod note;
-mod residual;
-mod silence;
 mod weakest;
 
 /// Growth of the variance of a silent direction that counts as windup.
@@ -54,45 +49,6 @@ pub struct Monitor<M: Memory> {
     variances: M::Vector,
     /// samples since each parameter was excited
     silence: M::Vector,
-}
-
-/// What the watch is shown of a sample that was used.
-#[derive(Clone, Copy, Debug)]
-pub struct Seen<'a, T> {
-    /// p
-    pub rows: usize,
-    /// φ̄, n numbers a row
-    pub regressors: &'a [T],
-    /// ē, one number a row and target
-    pub errors: &'a [T],
-    /// ‖ē‖² over rows and targets
-    pub squared_error: T,
-    /// tr φ̄P̄φ̄ᵀ
-    pub leverage: T,
-    /// the λ used
-    pub forgetting_factor: T,
-}
-
-impl<'a, T: Real> Seen<'a, T> {
-    /// What is shown of samples of one row and one target, of n numbers `phi` each.
-    #[inline]
-    pub(crate) fn of(
-        lambda: T,
-        n: usize,
-        phi: &'a [T],
-        told: &'a [Told<T>],
-    ) -> impl Clone + ExactSizeIterator<Item = Option<Self>> + DoubleEndedIterator {
-        told.iter().enumerate().map(move |(k, told)| {
-            told.used.then(|| Seen {
-                rows: 1,
-                regressors: &phi[k * n..(k + 1) * n],
-                errors: core::slice::from_ref(&told.error),
-                squared_error: told.error * told.error,
-                leverage: told.leverage,
-                forgetting_factor: lambda,
-            })
-        })
-    }
 }
 
 /// What the watch has seen.
@@ -171,29 +127,40 @@ impl<M: Memory> Monitor<M> {
         samples.min((left as usize).max(1))
     }
 
-    /// Takes note of samples, none for one that was left out, and of P after the last of them;
-    /// they fit the [room](Self::room). Gives how many of them, from the first on, left P wound up
-    /// as it was known before the last one.
+    /// Notes samples, at most [`room`](Self::room) of them, and P after the last. Returns for how
+    /// many of the first ones windup still stood.
     #[inline]
-    pub fn watch<'s>(
-        &mut self,
-        factor: &Factor<M>,
-        samples: impl Clone + ExactSizeIterator<Item = Option<Seen<'s, M::Real>>> + DoubleEndedIterator,
-    ) -> usize {
-        let count = samples.len() as u64;
+    pub fn watch(&mut self, factor: &Factor<M>, samples: Observations<'_, M::Real>) -> usize {
+        let wound_up = M::Real::watch_run(self.kernel(), samples);
+        self.count(factor, samples.outcomes.len() as u64);
+        wound_up
+    }
+
+    /// Notes one sample, None if it was left out, and P after it.
+    #[inline]
+    pub fn watch_one(&mut self, factor: &Factor<M>, sample: Option<Observation<'_, M::Real>>) {
+        M::Real::watch_one(self.kernel(), sample);
+        self.count(factor, 1);
+    }
+
+    /// What a kernel keeps count of.
+    #[inline]
+    fn kernel(&mut self) -> Watch<'_, M::Real> {
         let silence = Silence {
             variances: self.variances.as_ref(),
             least: M::Real::from_f64(SHARE) / self.length,
             since: self.silence.as_mut(),
         };
-        let (residual, gauge) = (&mut self.residual, self.weakest.gauge());
-        let wound_up = M::Real::compute(Note { samples, residual, gauge, silence });
-        self.samples += count;
-        self.in_block += count;
+        Watch { residual: &mut self.residual, gauge: self.weakest.gauge(), silence }
+    }
+
+    #[inline]
+    fn count(&mut self, factor: &Factor<M>, samples: u64) {
+        self.samples += samples;
+        self.in_block += samples;
         if M::Real::from_f64(self.in_block as f64) >= self.length {
             self.turn(factor);
         }
-        wound_up
     }
 
     /// The end of a block.
@@ -230,7 +197,10 @@ impl<M: Memory> Monitor<M> {
 impl<M: Memory> State<M::Real> for Monitor<M> {
     fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
         self.weakest.visit(visitor);
-        self.residual.visit(visitor);
+        let Residual { weight, squares, products, previous } = &mut self.residual;
+        for number in [weight, squares, products, previous] {
+            visitor.reals(core::slice::from_mut(number));
+        }
         visitor.reals(self.variances.as_mut());
         visitor.reals(self.silence.as_mut());
         visitor.reals(core::slice::from_mut(&mut self.length));
@@ -243,7 +213,8 @@ impl<M: Memory> State<M::Real> for Monitor<M> {
         let vectors = [self.variances.as_ref(), self.silence.as_ref()];
         is_finite(self)
             && self.weakest.is_sound()
-            && State::<M::Real>::is_sound(&self.residual)
+            && self.residual.weight >= M::Real::ZERO
+            && self.residual.squares >= M::Real::ZERO
             && vectors.iter().all(|vector| vector.iter().all(|&x| x >= M::Real::ZERO))
             && self.length > M::Real::ZERO
             && self.informed <= self.samples

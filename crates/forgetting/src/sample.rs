@@ -1,7 +1,8 @@
 //! One sample on its way through the estimator: whitened, possibly rotated, possibly thinned.
 
-use crate::factor::kernel::{add_scaled, dot};
 use crate::{Error, Memory, Real};
+use forgetting_kernels::kernel::functions::{add_scaled, dot};
+use forgetting_kernels::Kernels;
 
 /// The whitened sample φ̄ = Γ^(−1/2)φ and ē = Γ^(−1/2)(y − φθ).
 ///
@@ -209,7 +210,7 @@ impl<'a, M: Memory> Sample<'a, M> {
 ///
 /// # Errors
 /// [`Error::Indefinite`] names `parameter`.
-pub(crate) fn cholesky<T: Real>(
+pub(crate) fn cholesky<T: Kernels>(
     a: &mut [T],
     p: usize,
     parameter: &'static str,

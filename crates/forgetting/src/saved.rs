@@ -24,6 +24,7 @@ use crate::state::Visitor;
 use crate::weighting::{AnyWeighting, Weighting};
 use crate::{Dynamic, Error, Estimator, Memory, Prior, Real};
 use alloc::{boxed::Box, string::String, vec::Vec};
+use forgetting_kernels::Kernels;
 
 mod read;
 mod write;
@@ -38,7 +39,7 @@ const MARK: &[u8; 5] = b"FGRLS";
 pub type AnyEstimator<T> =
     Estimator<Rule<Dynamic<T>>, AnyRate<Dynamic<T>>, AnyWeighting<Dynamic<T>>, Dynamic<T>>;
 
-impl<T: Real> AnyEstimator<T> {
+impl<T: Kernels> AnyEstimator<T> {
     /// The estimator, configuration and state, as bytes.
     ///
     /// # Errors

@@ -3,8 +3,8 @@
 mod dense;
 
 use dense::Dense;
-use forgetting::factor::kernel;
-use forgetting::{Dynamic, Error, Factor, Real};
+use forgetting::{Dynamic, Error, Factor, Kernels};
+use forgetting_kernels::kernel::layout;
 use proptest::prelude::*;
 
 /// Largest relative difference, in units of epsilon and, where P is inverted or multiplied, of
@@ -32,11 +32,11 @@ fn case() -> impl Strategy<Value = Case> {
     })
 }
 
-fn real<T: Real>(values: &[f64]) -> Vec<T> {
+fn real<T: Kernels>(values: &[f64]) -> Vec<T> {
     values.iter().map(|&x| T::from_f64(x)).collect()
 }
 
-fn dense<T: Real>(rows: usize, values: &[T]) -> Dense {
+fn dense<T: Kernels>(rows: usize, values: &[T]) -> Dense {
     Dense::new(rows, &values.iter().map(|x| x.to_f64()).collect::<Vec<_>>())
 }
 
@@ -45,7 +45,7 @@ fn column(x: &[f64]) -> Dense {
 }
 
 impl Case {
-    fn factor<T: Real>(&self) -> Factor<Dynamic<T>> {
+    fn factor<T: Kernels>(&self) -> Factor<Dynamic<T>> {
         let memory = Dynamic::new(self.n, 1, 1).unwrap();
         let mut factor = Factor::diagonal(memory, &real(&self.variances)).unwrap();
         let mut gain = vec![T::ZERO; self.n];
@@ -62,13 +62,13 @@ impl Case {
     }
 
     /// x xᵀ, with x as the number type has it.
-    fn dyad<T: Real>(&self) -> Dense {
+    fn dyad<T: Kernels>(&self) -> Dense {
         let x = dense(self.n, &real::<T>(&self.x));
         x.clone() * x.transpose()
     }
 }
 
-fn reconstruct<T: Real>(factor: &Factor<Dynamic<T>>) -> Dense {
+fn reconstruct<T: Kernels>(factor: &Factor<Dynamic<T>>) -> Dense {
     let n = factor.parameters();
     let mut p = vec![T::ZERO; n * n];
     factor.reconstruct(&mut p);
@@ -76,7 +76,7 @@ fn reconstruct<T: Real>(factor: &Factor<Dynamic<T>>) -> Dense {
 }
 
 /// P, and that the factor is sound and its trace the trace of P.
-fn sound<T: Real>(factor: &Factor<Dynamic<T>>) -> Dense {
+fn sound<T: Kernels>(factor: &Factor<Dynamic<T>>) -> Dense {
     let p = reconstruct(factor);
     assert!(factor.is_sound());
     close::<T>(&Dense::new(1, &[factor.trace().to_f64()]), &Dense::new(1, &[p.trace()]), 1.0);
@@ -87,7 +87,7 @@ fn sound<T: Real>(factor: &Factor<Dynamic<T>>) -> Dense {
     p
 }
 
-fn close<T: Real>(found: &Dense, wanted: &Dense, condition: f64) {
+fn close<T: Kernels>(found: &Dense, wanted: &Dense, condition: f64) {
     let distance = found.distance(wanted) / (T::EPSILON.to_f64() * condition);
     assert!(distance < TOLERANCE, "{distance}: {found:?} is not {wanted:?}");
 }
@@ -97,7 +97,7 @@ fn condition(p: &Dense) -> f64 {
     values[values.len() - 1] / values[0]
 }
 
-fn reads<T: Real>(case: &Case) {
+fn reads<T: Kernels>(case: &Case) {
     let factor = case.factor::<T>();
     let (n, p) = (case.n, sound(&factor));
     let (x, r, k) = (column(&case.x), p.inverse(), condition(&p));
@@ -127,7 +127,7 @@ fn reads<T: Real>(case: &Case) {
     close::<T>(&dense(n, &information), &r, k);
 }
 
-fn adds<T: Real>(case: &Case) {
+fn adds<T: Kernels>(case: &Case) {
     let (n, start) = (case.n, case.factor::<T>());
     let (p, mut gain) = (reconstruct(&start), vec![T::ZERO; case.n]);
     let k = condition(&p);
@@ -158,7 +158,7 @@ fn adds<T: Real>(case: &Case) {
     close::<T>(&sound(&factor), &(p + Dense::diagonal(&added)), 1.0);
 }
 
-fn scales<T: Real>(case: &Case) {
+fn scales<T: Kernels>(case: &Case) {
     let (n, start) = (case.n, case.factor::<T>());
     let p = reconstruct(&start);
 
@@ -180,7 +180,7 @@ fn scales<T: Real>(case: &Case) {
     close::<T>(&sound(&factor), &wanted, n as f64);
 }
 
-fn replaces<T: Real>(case: &Case) {
+fn replaces<T: Kernels>(case: &Case) {
     let (n, start) = (case.n, case.factor::<T>());
     let memory = start.memory();
     let p = reconstruct(&start);
@@ -209,7 +209,7 @@ fn replaces<T: Real>(case: &Case) {
 
     // two blocks, each with the triangle of the first
     let half = n / 2;
-    let columns = start.packed_columns()[..kernel::length::<T>(half)].to_vec();
+    let columns = start.packed_columns()[..layout::length::<T>(half)].to_vec();
     let diagonal = start.diagonal_elements()[..half].to_vec();
     factor.clear_columns();
     factor.put_block(0, &columns, &diagonal);
@@ -242,7 +242,7 @@ both! {
 
 #[test]
 fn more_than_fits_is_refused_and_changes_nothing() {
-    fn check<T: Real>() {
+    fn check<T: Kernels>() {
         let memory = Dynamic::<T>::new(3, 1, 1).unwrap();
         let mut factor = Factor::scalar(memory, T::from_f64(2.0)).unwrap();
         let before = reconstruct(&factor);

@@ -1,12 +1,12 @@
 //! A stream of a fleet is the estimator: bit for bit up to ten parameters, to rounding above.
 
-use forgetting::fleet::{Fleet, Samples, Told, REFUSED};
+use forgetting::fleet::{Fleet, Outputs, Samples, REFUSED};
 use forgetting::parameter::{Defaults, Value, Values};
 use forgetting::rates::AnyRate;
 use forgetting::rules::{Rule, Skip};
 use forgetting::saved::AnyEstimator;
 use forgetting::weighting::AnyWeighting;
-use forgetting::{Dynamic, Error, Estimator, Prior, Real};
+use forgetting::{Dynamic, Error, Estimator, Kernels, Prior};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
@@ -42,7 +42,7 @@ impl Values for Factor {
     }
 }
 
-fn estimator<T: Real>(rule: &str, n: usize, factor: f64) -> AnyEstimator<T> {
+fn estimator<T: Kernels>(rule: &str, n: usize, factor: f64) -> AnyEstimator<T> {
     let memory = Dynamic::<T>::new(n, 1, 1).unwrap();
     Estimator::new(
         Rule::named(rule, &Defaults, memory).unwrap(),
@@ -52,7 +52,7 @@ fn estimator<T: Real>(rule: &str, n: usize, factor: f64) -> AnyEstimator<T> {
     )
 }
 
-fn fleet<T: Real>(rule: &str, n: usize, factor: f64) -> Fleet<T> {
+fn fleet<T: Kernels>(rule: &str, n: usize, factor: f64) -> Fleet<T> {
     let mut fleet = Fleet::of(estimator(rule, n, factor)).unwrap();
     fleet.grow(COUNT).unwrap();
     fleet
@@ -71,7 +71,7 @@ struct Given<T> {
 }
 
 /// A sample for each stream; some are silent, masked, missing, infinite or too large.
-fn given<T: Real>(step: usize, n: usize) -> Given<T> {
+fn given<T: Kernels>(step: usize, n: usize) -> Given<T> {
     let at = |i: usize| T::from_f64(noise(step * 7919 + i));
     let mut phi: Vec<T> = (0..COUNT * n).map(at).collect();
     let mut y: Vec<T> = (0..COUNT).map(|i| at(i + 5000)).collect();
@@ -91,7 +91,12 @@ fn given<T: Real>(step: usize, n: usize) -> Given<T> {
 }
 
 /// What a fleet is to tell of a sample: error, leverage and code.
-fn expected<T: Real>(single: &mut AnyEstimator<T>, phi: &[T], y: T, there: bool) -> (f64, f64, u8) {
+fn expected<T: Kernels>(
+    single: &mut AnyEstimator<T>,
+    phi: &[T],
+    y: T,
+    there: bool,
+) -> (f64, f64, u8) {
     let missing = !there || phi.iter().chain([&y]).any(|x| x.to_f64().is_nan());
     if missing {
         return (f64::NAN, f64::NAN, Skip::Missing.code());
@@ -106,7 +111,7 @@ fn expected<T: Real>(single: &mut AnyEstimator<T>, phi: &[T], y: T, there: bool)
 }
 
 /// The largest difference from single estimators over `steps`, and the codes that came up.
-fn difference<T: Real>(rule: &str, n: usize, factor: f64, steps: usize) -> (f64, Vec<u8>) {
+fn difference<T: Kernels>(rule: &str, n: usize, factor: f64, steps: usize) -> (f64, Vec<u8>) {
     let mut fleet = fleet::<T>(rule, n, factor);
     let mut singles: Vec<_> = (0..COUNT).map(|_| estimator::<T>(rule, n, factor)).collect();
     let (mut error, mut leverage) = (vec![T::ZERO; COUNT], vec![T::ZERO; COUNT]);
@@ -119,7 +124,7 @@ fn difference<T: Real>(rule: &str, n: usize, factor: f64, steps: usize) -> (f64,
     };
     for step in 0..steps {
         let Given { phi, y, mask } = given::<T>(step, n);
-        let told = Told {
+        let told = Outputs {
             error: Some(&mut error),
             leverage: Some(&mut leverage),
             skipped: Some(&mut skipped),
@@ -186,13 +191,13 @@ fn above_the_difference_is_rounding() {
 }
 
 /// Masked, missing, refused or in the dead zone: every number stays, bit for bit.
-fn what_is_left_out_stays<T: Real>(rule: &str, n: usize) {
+fn what_is_left_out_stays<T: Kernels>(rule: &str, n: usize) {
     let mut fleet = fleet::<T>(rule, n, 0.95);
     let (mut skipped, mut codes) = (vec![0; COUNT], Vec::new());
     for step in 0..60 {
         let Given { phi, y, mask } = given::<T>(step, n);
         let before: Vec<_> = (0..COUNT).map(|i| fleet.get(i).to_bytes().unwrap()).collect();
-        let told = Told { error: None, leverage: None, skipped: Some(&mut skipped) };
+        let told = Outputs { error: None, leverage: None, skipped: Some(&mut skipped) };
         fleet.update(Samples { phi: &phi, y: &y, mask: Some(&mask) }, told).unwrap();
         for (i, before) in before.iter().enumerate().filter(|&(i, _)| skipped[i] != 0) {
             let after = fleet.get(i).to_bytes().unwrap();
@@ -229,7 +234,7 @@ fn a_stream_at_the_end_of_the_range_does_what_an_estimator_does() {
             let mut phi = vec![0.0; COUNT * n];
             phi.iter_mut().step_by(n).for_each(|x| *x = 1.0 + 0.1 * noise(step) as f32);
             let y = vec![noise(step + 1) as f32; COUNT];
-            let told = Told { error: None, leverage: None, skipped: Some(&mut skipped) };
+            let told = Outputs { error: None, leverage: None, skipped: Some(&mut skipped) };
             fleet.update(Samples { phi: &phi, y: &y, mask: None }, told).unwrap();
             let code = expected(&mut single, &phi[..n], y[0], true).2;
             assert!(skipped.iter().all(|&other| other == code), "n = {n}, step {step}");
@@ -243,7 +248,7 @@ fn a_stream_at_the_end_of_the_range_does_what_an_estimator_does() {
 }
 
 /// Regressors of every size bring D to its floor and its columns to every length: P becomes no larger.
-fn a_measurement_adds_nothing<T: Real>(n: usize) {
+fn a_measurement_adds_nothing<T: Kernels>(n: usize) {
     let mut fleet = fleet::<T>("none", n, 1.0);
     let size = 0.48 * T::CEILING.to_f64().log10();
     for step in 0..40 {
@@ -257,7 +262,7 @@ fn a_measurement_adds_nothing<T: Real>(n: usize) {
         };
         let phi: Vec<T> = (0..COUNT * n).map(|i| T::from_f64(number(i))).collect();
         let before: Vec<_> = (0..COUNT).map(|i| fleet.get(i).factor().trace().to_f64()).collect();
-        let told = Told { error: None, leverage: None, skipped: None };
+        let told = Outputs { error: None, leverage: None, skipped: None };
         let y = vec![T::ONE; COUNT];
         fleet.update(Samples { phi: &phi, y: &y, mask: None }, told).unwrap();
         for (i, before) in before.iter().enumerate() {
@@ -284,7 +289,7 @@ fn a_hundred_thousand_silent_samples_in_f32() {
         let mut phi = vec![0.0; COUNT * 3];
         for step in 0..100_000 {
             phi.iter_mut().step_by(3).for_each(|x| *x = noise(step) as f32);
-            let told = Told { error: None, leverage: None, skipped: None };
+            let told = Outputs { error: None, leverage: None, skipped: None };
             let y = [0.5; COUNT];
             fleet.update(Samples { phi: &phi, y: &y, mask: None }, told).unwrap();
         }
@@ -308,7 +313,7 @@ fn parts_are_the_whole_and_an_update_allocates_nothing() {
         let mut parted = whole.clone();
         assert!(parted.parts(3).unwrap().count() > 1);
         let given: Vec<_> = (0..20).map(|step| given::<f64>(step, n)).collect();
-        let none = || Told { error: None, leverage: None, skipped: None };
+        let none = || Outputs { error: None, leverage: None, skipped: None };
         for Given { phi, y, mask } in &given {
             let samples = Samples { phi, y, mask: Some(mask) };
             whole.update(samples, none()).unwrap();
@@ -335,7 +340,7 @@ fn what_does_not_fit_is_refused_and_changes_nothing() {
     let mut fleet = fleet::<f64>("subspace", 2, 0.9);
     let before = fleet.get(0).to_bytes().unwrap();
     let (phi, y) = ([1.0; 2 * COUNT], [1.0; COUNT]);
-    let told = || Told { error: None, leverage: None, skipped: None };
+    let told = || Outputs { error: None, leverage: None, skipped: None };
     let bad = [
         Samples { phi: &phi[1..], y: &y, mask: None },
         Samples { phi: &phi, y: &y[1..], mask: None },
@@ -344,7 +349,7 @@ fn what_does_not_fit_is_refused_and_changes_nothing() {
     for samples in bad {
         assert!(matches!(fleet.update(samples, told()), Err(Error::Length { .. })));
     }
-    let short = Told { error: Some(&mut [0.0]), leverage: None, skipped: None };
+    let short = Outputs { error: Some(&mut [0.0]), leverage: None, skipped: None };
     let samples = Samples { phi: &phi, y: &y, mask: None };
     assert!(matches!(fleet.update(samples, short), Err(Error::Length { .. })));
     assert!(matches!(fleet.put(0, estimator("none", 2, 0.9)), Err(Error::Unsupported { .. })));

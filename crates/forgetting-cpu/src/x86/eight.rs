@@ -7,7 +7,7 @@ use super::single::Single;
 use super::{at, at_mut, Pair, Wide};
 use crate::Fused;
 use core::arch::x86_64::*;
-use forgetting::Eight;
+use forgetting_kernels::number::eight::Eight;
 
 impl Eight<Fused<f64>> for Pair<__m256d> {
     #[inline(always)]

@@ -7,7 +7,7 @@ use super::{Pair, Wide};
 use crate::Fused;
 use core::arch::x86_64::*;
 use core::ops::{Add, Div, Mul, Neg, Sub};
-use forgetting::Lane;
+use forgetting_kernels::number::lane::Lane;
 
 /// An operator, for a pair of registers and for a wide one.
 macro_rules! operator {

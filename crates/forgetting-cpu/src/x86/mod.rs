@@ -6,7 +6,7 @@
 use crate::level::Vectors;
 use crate::Fused;
 use core::arch::x86_64::*;
-use forgetting::vector::Vector;
+use forgetting_kernels::number::vector::Vector;
 
 mod eight;
 mod lanes;

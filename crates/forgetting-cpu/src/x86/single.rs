@@ -7,8 +7,8 @@ use super::{at, at_mut, Wide};
 use crate::Fused;
 use core::arch::x86_64::*;
 use core::ops::{Add, Div, Mul, Neg, Sub};
-use forgetting::vector::Abreast;
-use forgetting::{Lane, One};
+use forgetting_kernels::number::lane::{Lane, One};
+use forgetting_kernels::number::vector::Abreast;
 
 /// A register of 256 bits, with a stream in each lane; or of 128, with the same number in all: the
 /// compiler would pair single numbers with their neighbours, which costs more steps than it saves

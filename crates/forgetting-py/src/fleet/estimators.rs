@@ -2,7 +2,7 @@
 
 use super::streams::Spread;
 use crate::arrays::Number;
-use forgetting::fleet::{Samples, Told, REFUSED};
+use forgetting::fleet::{Outputs, Samples, REFUSED};
 use forgetting::saved::AnyEstimator;
 use forgetting::{Error, Skip};
 
@@ -14,7 +14,7 @@ pub const EFFORT: usize = 8;
 pub fn update<T: Number>(
     streams: &mut [AnyEstimator<T>],
     samples: Samples<'_, T>,
-    told: &mut Told<'_, T>,
+    told: &mut Outputs<'_, T>,
 ) -> usize {
     let n = samples.phi.len() / streams.len().max(1);
     let mut used = 0;

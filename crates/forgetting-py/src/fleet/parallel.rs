@@ -1,6 +1,6 @@
 //! Streams on several cores.
 
-use forgetting::fleet::{Samples, Told};
+use forgetting::fleet::{Outputs, Samples};
 use forgetting::Real;
 use rayon::prelude::*;
 use std::sync::OnceLock;
@@ -36,8 +36,8 @@ fn has_threads() -> bool {
 pub fn sum<'a, T: Real, P: Send>(
     parts: impl Iterator<Item = (usize, P)>,
     n: usize,
-    (mut samples, mut told): (Samples<'a, T>, Told<'a, T>),
-    work: impl Fn(P, Samples<'a, T>, Told<'a, T>) -> usize + Sync + Send,
+    (mut samples, mut told): (Samples<'a, T>, Outputs<'a, T>),
+    work: impl Fn(P, Samples<'a, T>, Outputs<'a, T>) -> usize + Sync + Send,
 ) -> usize {
     let mut tasks = Vec::new();
     for (count, part) in parts {

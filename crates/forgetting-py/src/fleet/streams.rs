@@ -4,7 +4,7 @@
 use super::{estimators, parallel};
 use crate::arrays::Number;
 use crate::errors::raise;
-use forgetting::fleet::{check_kind, Fleet, Part, Samples, Told};
+use forgetting::fleet::{check_kind, Fleet, Outputs, Part, Samples};
 use forgetting::rates::{AnyRate, Constant, Rate};
 use forgetting::saved::AnyEstimator;
 use forgetting::{Dynamic, Error, Estimator, Memory, Prior};
@@ -104,7 +104,7 @@ impl<T: Number> Streams<T> {
     pub fn update(
         &mut self,
         samples: Samples<'_, T>,
-        told: Told<'_, T>,
+        told: Outputs<'_, T>,
         threads: Option<usize>,
     ) -> Result<usize, Error> {
         let (count, n) = (self.len(), self.parameters());
@@ -113,7 +113,7 @@ impl<T: Number> Streams<T> {
                 let parts = fleet.parts(parallel::parts(threads, count * n * (n + 3) / 2))?;
                 let parts = parts.map(|part| (part.count(), part));
                 let work =
-                    |mut part: Part<'_, T>, samples: Samples<'_, T>, mut told: Told<'_, T>| {
+                    |mut part: Part<'_, T>, samples: Samples<'_, T>, mut told: Outputs<'_, T>| {
                         part.update(samples, &mut told)
                     };
                 Ok(parallel::sum(parts, n, (samples, told), work))

@@ -3,7 +3,7 @@
 use super::streams::Streams;
 use crate::arrays::{contiguous, shaped, Array, Number};
 use crate::errors::{invalid, raise};
-use forgetting::fleet::{Samples, Told};
+use forgetting::fleet::{Outputs, Samples};
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
@@ -60,7 +60,7 @@ pub fn update<T: Number>(
     let mut error = wanted("error").then(|| vec![T::ZERO; count]);
     let mut leverage = wanted("leverage").then(|| vec![T::ZERO; count]);
     let mut skipped = wanted("skipped").then(|| vec![0; count]);
-    let told = Told {
+    let told = Outputs {
         error: error.as_deref_mut(),
         leverage: leverage.as_deref_mut(),
         skipped: skipped.as_deref_mut(),

@@ -1,7 +1,6 @@
 //! What an estimator holds and shows: θ, P, what it was made of, and its state.
 
 use super::Estimator;
-use crate::factor::kernel::dot;
 use crate::gates::AnyGate;
 use crate::monitor::{Health, Monitor};
 use crate::rates::Rate;
@@ -9,6 +8,7 @@ use crate::rules::Forgetting;
 use crate::state::{State, Visitor, MOST_SAMPLES};
 use crate::weighting::Weighting;
 use crate::{Error, Factor, Memory, Prior, Real};
+use forgetting_kernels::kernel::functions::dot;
 
 impl<F, R, W, M> Estimator<F, R, W, M>
 where

@@ -3,16 +3,16 @@
 use super::{forgotten, Estimator};
 use crate::between::Between;
 use crate::evidence::Known;
-use crate::factor::Form;
 use crate::gates::{Answer, Gate};
 use crate::intake::{whiten, Noise};
 use crate::measure::{leverage, measure_rows};
-use crate::monitor::Seen;
 use crate::rates::Rate;
 use crate::rules::{Forgetting, Forgotten, Skip, Step};
 use crate::update::{Update, Whitened};
 use crate::weighting::Weighting;
 use crate::{Error, Memory, Real, Sample};
+use forgetting_kernels::kernel::form::Form;
+use forgetting_kernels::kernel::watch::Observation;
 
 /// What is known of a sample before it is used, and what the gate says of it.
 struct Admitted<T> {
@@ -65,7 +65,7 @@ where
             self.samples += 1;
         }
         if let Some(monitor) = &mut self.monitor {
-            let seen = Seen {
+            let observation = Observation {
                 rows: sample.rows(),
                 regressors: sample.regressors(),
                 errors: sample.errors(),
@@ -73,7 +73,7 @@ where
                 leverage,
                 forgetting_factor: lambda,
             };
-            monitor.watch(&self.factor, core::iter::once(skipped.is_none().then_some(seen)));
+            monitor.watch_one(&self.factor, skipped.is_none().then_some(observation));
         }
         let noise = sample.scaled() * sample.scaled();
         Ok(Update {

@@ -6,15 +6,16 @@ use crate::rates::Rate;
 use crate::rules::Forgetting;
 use crate::saved::{write_choice, AnyEstimator};
 use crate::weighting::Weighting;
-use crate::{Error, Memory, Real};
+use crate::{Error, Memory};
 use alloc::vec::Vec;
+use forgetting_kernels::Kernels;
 
 /// Refuses an `estimator` that differs from `fresh` in more than a constant forgetting factor,
 /// the prior and the state.
 ///
 /// # Errors
 /// [`Error::Unsupported`] says what differs.
-pub fn check_kind<T: Real>(
+pub fn check_kind<T: Kernels>(
     fresh: &AnyEstimator<T>,
     estimator: &AnyEstimator<T>,
 ) -> Result<(), Error> {
@@ -54,22 +55,22 @@ fn written(
     Ok(bytes)
 }
 
-fn rule<T: Real>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
+fn rule<T: Kernels>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
     let rule = estimator.rule();
     written(rule.about().name, |each| rule.describe(&mut |name, value| each(name, value)))
 }
 
-fn rate<T: Real>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
+fn rate<T: Kernels>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
     let rate = estimator.rate();
     written(rate.about().name, |each| rate.describe(&mut |name, value| each(name, value)))
 }
 
-fn weighting<T: Real>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
+fn weighting<T: Kernels>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
     let weighting = estimator.weighting();
     written(weighting.about().name, |each| weighting.describe(&mut |name, value| each(name, value)))
 }
 
-fn gate<T: Real>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
+fn gate<T: Kernels>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
     let gate = estimator.gate();
     written(gate.about().name, |each| gate.describe(&mut |name, value| each(name, value)))
 }

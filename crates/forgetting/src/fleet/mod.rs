@@ -9,34 +9,33 @@ mod kind;
 mod part;
 mod priors;
 mod read;
-mod storage;
 mod transfer;
 
+pub use forgetting_kernels::kernel::lanes::streams::{Outputs, Samples, REFUSED};
 pub use kind::check_kind;
-pub use part::{Part, Parts, Samples, Told};
-pub(crate) use storage::{Layout, Line};
+pub use part::{Part, Parts};
 
-use crate::factor::kernel::fleet::SCRATCH;
-use crate::factor::kernel::FEW;
-use crate::factor::Form;
 use crate::gates::Gate;
 use crate::rates::{AnyRate, Constant, Rate};
 use crate::rules::Forgetting;
 use crate::saved::AnyEstimator;
 use crate::weighting::Weighting;
-use crate::{Dynamic, Error, Estimator, Memory, Prior, Real};
+use crate::{Dynamic, Error, Estimator, Memory, Prior};
 use alloc::vec::Vec;
+use forgetting_kernels::kernel::form::Form;
+use forgetting_kernels::kernel::lanes::storage::{Layout, Line};
+use forgetting_kernels::kernel::lanes::streams::Streams;
+use forgetting_kernels::kernel::lanes::SCRATCH;
+use forgetting_kernels::kernel::layout::FEW;
+use forgetting_kernels::Kernels;
 use priors::Priors;
 use transfer::Numbers;
-
-/// The code of a stream that refused its sample, beside those of [`Skip`](crate::rules::Skip).
-pub const REFUSED: u8 = u8::MAX;
 
 /// Streams of one rule that only scales P or adds to it along the regressor
 /// ([`Forgetting::form`]), each with a constant forgetting factor.
 ///
 /// ```
-/// use forgetting::fleet::{Fleet, Samples, Told};
+/// use forgetting::fleet::{Fleet, Samples, Outputs};
 /// use forgetting::parameter::Defaults;
 /// use forgetting::rates::AnyRate;
 /// use forgetting::rules::Rule;
@@ -55,7 +54,7 @@ pub const REFUSED: u8 = u8::MAX;
 /// for k in 0..50 {
 ///     let x = f64::from(k % 7);
 ///     let (phi, y) = ([1.0, x, 1.0, x, 1.0, x], [x, 1.0 + x, 2.0 + x]);
-///     let told = Told { error: None, leverage: None, skipped: None };
+///     let told = Outputs { error: None, leverage: None, skipped: None };
 ///     let used = fleet.update(Samples { phi: &phi, y: &y, mask: None }, told)?;
 ///     assert_eq!(used, 3);
 /// }
@@ -63,7 +62,7 @@ pub const REFUSED: u8 = u8::MAX;
 /// # Ok::<(), forgetting::Error>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Fleet<T: Real> {
+pub struct Fleet<T: Kernels> {
     /// what a new stream starts as
     fresh: AnyEstimator<T>,
     form: Form<T>,
@@ -82,7 +81,7 @@ pub struct Fleet<T: Real> {
     scratch: Vec<Line<T>>,
 }
 
-impl<T: Real> Fleet<T> {
+impl<T: Kernels> Fleet<T> {
     /// No streams yet; new ones will start as `fresh` is configured.
     ///
     /// # Errors
@@ -138,18 +137,18 @@ impl<T: Real> Fleet<T> {
     pub fn update(
         &mut self,
         samples: Samples<'_, T>,
-        mut told: Told<'_, T>,
+        mut outputs: Outputs<'_, T>,
     ) -> Result<usize, Error> {
         let count = self.count;
         Error::check_length("phi", samples.phi.len(), count * self.parameters())?;
         Error::check_length("y", samples.y.len(), count)?;
         Error::check_length("mask", samples.mask.map_or(count, <[bool]>::len), count)?;
         let length = |numbers: &Option<&mut [T]>| numbers.as_ref().map_or(count, |all| all.len());
-        Error::check_length("error", length(&told.error), count)?;
-        Error::check_length("leverage", length(&told.leverage), count)?;
-        let codes = told.skipped.as_ref().map_or(count, |all| all.len());
+        Error::check_length("error", length(&outputs.error), count)?;
+        Error::check_length("leverage", length(&outputs.leverage), count)?;
+        let codes = outputs.skipped.as_ref().map_or(count, |all| all.len());
         Error::check_length("skipped", codes, count)?;
-        Ok(self.parts(1)?.next().map_or(0, |mut part| part.update(samples, &mut told)))
+        Ok(self.parts(1)?.next().map_or(0, |mut part| part.update(samples, &mut outputs)))
     }
 
     /// The streams in at most `most` parts, which can take their samples at the same time.
@@ -162,7 +161,7 @@ impl<T: Real> Fleet<T> {
         let scratch = if n > FEW { SCRATCH * n } else { 0 };
         let lines = scratch * self.offered.len().div_ceil(blocks);
         extend(&mut self.scratch, lines, Line::splat(T::ZERO))?;
-        let rest = Part {
+        let rest = Streams {
             count: self.count,
             n,
             form: self.form,
@@ -257,7 +256,7 @@ impl<T: Real> Fleet<T> {
 }
 
 /// How an estimator forgets at every sample, if that is all that it does to P.
-fn form_of<T: Real>(estimator: &AnyEstimator<T>) -> Option<Form<T>> {
+fn form_of<T: Kernels>(estimator: &AnyEstimator<T>) -> Option<Form<T>> {
     let memory = estimator.prior().memory();
     let single = (memory.rows(), memory.targets()) == (1, 1)
         && estimator.health().is_none()
@@ -268,7 +267,7 @@ fn form_of<T: Real>(estimator: &AnyEstimator<T>) -> Option<Form<T>> {
 }
 
 /// What distinguishes forms of one rule.
-fn strength<T: Real>(form: Form<T>) -> T {
+fn strength<T: Kernels>(form: Form<T>) -> T {
     match form {
         Form::Scale { growth } => growth,
         Form::Along { weight, .. } => weight,

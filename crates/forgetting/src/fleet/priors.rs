@@ -2,19 +2,20 @@
 
 use super::reserve;
 use crate::state::Visitor;
-use crate::{Dynamic, Error, Prior, Real};
+use crate::{Dynamic, Error, Prior};
 use alloc::vec::Vec;
+use forgetting_kernels::Kernels;
 
 /// The priors of the streams.
 #[derive(Clone, Debug)]
-pub struct Priors<T: Real> {
+pub struct Priors<T: Kernels> {
     /// that of a new stream, then those of streams with one of their own
     different: Vec<Prior<Dynamic<T>>>,
     /// which one each stream has; empty while all have the first
     of: Vec<usize>,
 }
 
-impl<T: Real> Priors<T> {
+impl<T: Kernels> Priors<T> {
     /// The same for all.
     pub fn of(common: Prior<Dynamic<T>>) -> Self {
         Self { different: Vec::from([common]), of: Vec::new() }
@@ -78,13 +79,13 @@ impl<T: Real> Priors<T> {
 }
 
 /// Whether two priors are the same, bit for bit.
-fn same<T: Real>(a: &Prior<Dynamic<T>>, b: &Prior<Dynamic<T>>) -> bool {
+fn same<T: Kernels>(a: &Prior<Dynamic<T>>, b: &Prior<Dynamic<T>>) -> bool {
     a.form() == b.form() && written(a) == written(b)
 }
 
-fn written<T: Real>(prior: &Prior<Dynamic<T>>) -> Vec<u64> {
+fn written<T: Kernels>(prior: &Prior<Dynamic<T>>) -> Vec<u64> {
     struct Bits(Vec<u64>);
-    impl<T: Real> Visitor<T> for Bits {
+    impl<T: Kernels> Visitor<T> for Bits {
         fn reals(&mut self, values: &mut [T]) {
             self.0.extend(values.iter().map(|x| x.to_f64().to_bits()));
         }

@@ -1,10 +1,11 @@
 //! What all streams hold, in the order of the streams.
 
 use super::{Fleet, Line};
-use crate::factor::kernel::fleet::Predict;
-use crate::{Error, Real};
+use crate::Error;
+use forgetting_kernels::kernel::lanes::Predict;
+use forgetting_kernels::Kernels;
 
-impl<T: Real> Fleet<T> {
+impl<T: Kernels> Fleet<T> {
     /// φθ of each stream, for n numbers `phi` each.
     ///
     /// # Errors
@@ -14,7 +15,7 @@ impl<T: Real> Fleet<T> {
         Error::check_length("phi", phi.len(), self.count * n)?;
         Error::check_length("prediction", prediction.len(), self.count)?;
         let (layout, lines) = (self.layout, &self.lines);
-        T::compute(Predict { layout, lines, phi, prediction });
+        T::predict_streams(Predict { layout, lines, phi, prediction });
         Ok(())
     }
 

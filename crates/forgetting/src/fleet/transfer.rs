@@ -4,8 +4,9 @@ use super::{check_kind, extend, form_of, strength, Fleet, Line};
 use crate::rates::Rate;
 use crate::saved::AnyEstimator;
 use crate::state::Visitor;
-use crate::{Error, Real};
+use crate::Error;
 use alloc::vec::Vec;
+use forgetting_kernels::Kernels;
 
 /// The numbers of a stream, in the order of [`Estimator::visit`](crate::Estimator::visit).
 pub struct Numbers<T> {
@@ -15,7 +16,7 @@ pub struct Numbers<T> {
     give: bool,
 }
 
-impl<T: Real> Numbers<T> {
+impl<T: Kernels> Numbers<T> {
     /// Those of `estimator`.
     ///
     /// # Errors
@@ -35,7 +36,7 @@ impl<T: Real> Numbers<T> {
     }
 }
 
-impl<T: Real> Visitor<T> for Numbers<T> {
+impl<T: Kernels> Visitor<T> for Numbers<T> {
     fn reals(&mut self, values: &mut [T]) {
         if self.give {
             values.copy_from_slice(&self.numbers[self.next..self.next + values.len()]);
@@ -54,7 +55,7 @@ impl<T: Real> Visitor<T> for Numbers<T> {
     }
 }
 
-impl<T: Real> Fleet<T> {
+impl<T: Kernels> Fleet<T> {
     /// Puts `estimator` in the place of a stream.
     ///
     /// # Errors

@@ -1,10 +1,11 @@
 //! Numbers on the heap, of sizes known when they are made.
 
 use super::Memory;
-use crate::factor::kernel::{capacity, scratch, set_identity};
-use crate::{Error, Real};
+use crate::{Error, Kernels, Real};
 use alloc::{vec, vec::Vec};
 use core::marker::PhantomData;
+use forgetting_kernels::kernel::layout::{capacity, set_identity};
+use forgetting_kernels::kernel::scratch;
 
 /// Sizes chosen when the estimator is made; its buffers are on the heap.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,7 +85,7 @@ impl<T> AsMut<[T]> for Aligned<T> {
     }
 }
 
-impl<T: Real> Memory for Dynamic<T> {
+impl<T: Kernels> Memory for Dynamic<T> {
     type Real = T;
     type Vector = Aligned<T>;
     type Packed = Aligned<T>;

@@ -1,9 +1,10 @@
 //! Numbers on the stack, of sizes known to the compiler.
 
 use super::{Buffer, Memory};
-use crate::factor::kernel::{most, scratch, set_identity};
-use crate::Real;
+use crate::{Kernels, Real};
 use core::marker::PhantomData;
+use forgetting_kernels::kernel::layout::{most, set_identity};
+use forgetting_kernels::kernel::scratch;
 
 /// `B` blocks of `A` numbers on the stack.
 #[derive(Clone, Copy, Debug)]
@@ -72,7 +73,7 @@ impl<T, const N: usize, const P: usize, const M: usize, const L: usize> Fixed<T,
     }
 }
 
-impl<T: Real, const N: usize, const P: usize, const M: usize, const L: usize> Memory
+impl<T: Kernels, const N: usize, const P: usize, const M: usize, const L: usize> Memory
     for Fixed<T, N, P, M, L>
 where
     Size<N>: Packed<T>,

@@ -3,8 +3,8 @@
 //!
 //! The algorithms see slices only, so that both give the same bits.
 
-use crate::Real;
 use core::fmt::Debug;
+use forgetting_kernels::Kernels;
 
 #[cfg(feature = "alloc")]
 mod dynamic;
@@ -27,10 +27,10 @@ impl<T, B: Clone + Debug + Send + Sync + AsRef<[T]> + AsMut<[T]>> Buffer<T> for 
 /// | m | `targets` | parameter vectors that share φ and one P |
 pub trait Memory: Copy + Debug + Send + Sync + 'static {
     /// The number type.
-    type Real: Real;
+    type Real: Kernels;
     /// n numbers
     type Vector: Buffer<Self::Real>;
-    /// the columns of U: at least [`capacity`](crate::factor::kernel::capacity) of n numbers
+    /// the columns of U: at least [`capacity`](forgetting_kernels::kernel::layout::capacity) of n numbers
     type Packed: Buffer<Self::Real>;
     /// n x n numbers
     type Square: Buffer<Self::Real>;

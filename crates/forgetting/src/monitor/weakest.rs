@@ -1,10 +1,10 @@
 //! The direction that is known least, in units of what each parameter was known by at its best.
 
-use super::note::Gauge;
 use super::{FACTOR, RECOVERY, SHARE};
-use crate::factor::kernel::dot;
 use crate::state::{is_finite, State, Visitor};
 use crate::{Factor, Memory, Real};
+use forgetting_kernels::kernel::functions::dot;
+use forgetting_kernels::kernel::watch::Gauge;
 
 /// w, and what is told of it.
 #[derive(Clone, Debug)]
@@ -27,7 +27,7 @@ pub(super) struct Weakest<M: Memory> {
     /// Σ (φ̃ w)² in this block and in the one before
     information: [M::Real; 2],
     /// Σ (φ̃ w) φ̄ in this block
-    told: M::Vector,
+    products: M::Vector,
 }
 
 impl<M: Memory> Weakest<M> {
@@ -44,7 +44,7 @@ impl<M: Memory> Weakest<M> {
             spread: zero,
             reference: zero,
             information: [zero; 2],
-            told: memory.vector(),
+            products: memory.vector(),
         };
         weakest.least.as_mut().copy_from_slice(variances);
         for (x, &variance) in weakest.axis.as_mut().iter_mut().zip(variances) {
@@ -98,7 +98,7 @@ impl<M: Memory> Weakest<M> {
             needed: if self.has_grown() { self.needed() } else { M::Real::ZERO },
             information: &mut self.information,
             axis: self.axis.as_ref(),
-            told: self.told.as_mut(),
+            products: self.products.as_mut(),
         }
     }
 
@@ -110,7 +110,7 @@ impl<M: Memory> Weakest<M> {
         let (last, informed) = if same && along > M::Real::ZERO {
             // Σ (φ̃ w)² of the new w is at least this (Cauchy and Schwarz): a trickle along the old
             // one may be none along the new one, with its larger variance
-            let shared = dot(self.told.as_ref(), self.axis.as_ref());
+            let shared = dot(self.products.as_ref(), self.axis.as_ref());
             let last = (shared * (shared / along)).min(M::Real::CEILING);
             (last, last * self.variance >= self.needed())
         } else {
@@ -123,7 +123,7 @@ impl<M: Memory> Weakest<M> {
         }
         self.reference = self.reference.min(self.variance);
         self.information = [M::Real::ZERO, last];
-        self.told.as_mut().fill(M::Real::ZERO);
+        self.products.as_mut().fill(M::Real::ZERO);
         informed
     }
 
@@ -153,7 +153,7 @@ impl<M: Memory> Weakest<M> {
 
 impl<M: Memory> State<M::Real> for Weakest<M> {
     fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
-        for vector in [&mut self.least, &mut self.axis, &mut self.direction, &mut self.told] {
+        for vector in [&mut self.least, &mut self.axis, &mut self.direction, &mut self.products] {
             visitor.reals(vector.as_mut());
         }
         visitor.reals(&mut self.information);

@@ -26,7 +26,7 @@
 use super::gradient::STEP_SIZE;
 use super::limits::{largest, SMALLEST};
 use super::{AboutRate, Evidence, Limits, Rate};
-use crate::factor::kernel::{add_scaled, dot};
+use forgetting_kernels::kernel::functions::{add_scaled, dot};
 use crate::parameter::{Parameter, Range, Value, Values};
 use crate::state::{is_factor, is_finite, State, Visitor};
 use crate::{Error, Factor, Memory, Real, Sample};

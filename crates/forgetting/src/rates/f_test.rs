@@ -34,11 +34,12 @@
 //! Reference: N. Mohseni, D. S. Bernstein, *Recursive least squares with variable-rate forgetting
 //! based on the F-test*, American Control Conference, 2022.
 
+use forgetting_kernels::Kernels;
 use super::f_law::quantile;
 use super::limits::{largest, SMALLEST};
 use super::rms_ratio::{factor, Past, SENSITIVITY};
 use super::{AboutRate, Evidence, Limits, Rate, Windows};
-use crate::factor::kernel::{add_scaled, dot};
+use forgetting_kernels::kernel::functions::{add_scaled, dot};
 use crate::parameter::{Parameter, Range, Value, Values};
 use crate::sample::cholesky;
 use crate::{Error, Memory, Real};
@@ -143,7 +144,7 @@ impl<M: Memory> FTest<M> {
 
 /// xᵀA⁻¹y with A⁻¹ = LᵀL, of which `root` holds the lower triangle L row by row.
 #[inline]
-fn product<T: Real>(root: &[T], x: &[T], y: &[T]) -> T {
+fn product<T: Kernels>(root: &[T], x: &[T], y: &[T]) -> T {
     let rows = root.chunks_exact(x.len()).enumerate().take(x.len());
     rows.fold(T::ZERO, |sum, (i, row)| {
         let row = &row[..=i];
@@ -152,7 +153,7 @@ fn product<T: Real>(root: &[T], x: &[T], y: &[T]) -> T {
 }
 
 /// Σ z zᵀ over the ring, written to `sum`.
-fn sum_of_squares<T: Real>(ring: &[T], sum: &mut [T], d: usize) {
+fn sum_of_squares<T: Kernels>(ring: &[T], sum: &mut [T], d: usize) {
     if d == 1 {
         sum[0] = dot(ring, ring);
         return;
@@ -166,7 +167,7 @@ fn sum_of_squares<T: Real>(ring: &[T], sum: &mut [T], d: usize) {
 }
 
 /// The d x d matrix A in `a` becomes L with A⁻¹ = LᵀL, or 0 if A is singular.
-fn inverse_root<T: Real>(a: &mut [T], d: usize) {
+fn inverse_root<T: Kernels>(a: &mut [T], d: usize) {
     let tolerance = T::EPSILON * T::from_f64(64.0 * d as f64);
     let regular = cholesky(a, d, "errors").is_ok()
         && a.chunks_exact(d).enumerate().all(|(i, row)| {

@@ -25,7 +25,7 @@
 
 use super::{About, Claim, Forgetting, Forgotten, Step};
 use crate::blocks::Blocks;
-use crate::factor::kernel;
+use forgetting_kernels::kernel::{functions, layout};
 use crate::parameter::{Kind, Parameter, Range, Value, Values};
 use crate::state::{State, Visitor};
 use crate::{Error, Factor, Memory, Real};
@@ -184,12 +184,12 @@ impl<M: Memory> BlockRoot<M> {
     /// P_bb = V diag(d) Vᵀ: the block's own triangle of U, and a dyad for each later column.
     fn compute(&mut self, factor: &Factor<M>, range: Places<usize>, x: &mut [M::Real]) {
         let (size, start) = (range.len(), range.start);
-        let columns = &mut self.columns.as_mut()[..kernel::length::<M::Real>(size)];
+        let columns = &mut self.columns.as_mut()[..layout::length::<M::Real>(size)];
         let diagonal = &mut self.diagonal.as_mut()[..size];
         diagonal.copy_from_slice(&factor.diagonal_elements()[range.clone()]);
         for j in 0..size {
             for i in 0..j {
-                columns[kernel::place::<M::Real>(i, j)] = factor.unit(start + i, start + j);
+                columns[layout::place::<M::Real>(i, j)] = factor.unit(start + i, start + j);
             }
         }
         for k in range.end..factor.parameters() {
@@ -197,7 +197,7 @@ impl<M: Memory> BlockRoot<M> {
             for (x, i) in x.iter_mut().zip(range.clone()) {
                 *x = factor.unit(i, k);
             }
-            kernel::agee_turner(columns, diagonal, x, factor.diagonal_elements()[k]);
+            functions::agee_turner(columns, diagonal, x, factor.diagonal_elements()[k]);
         }
     }
 
@@ -211,7 +211,7 @@ impl<M: Memory> BlockRoot<M> {
     ) {
         for (j, &d) in self.diagonal.as_ref()[..range.len()].iter().enumerate() {
             direction.fill(M::Real::ZERO);
-            kernel::get_column(self.columns.as_ref(), j, &mut direction[range.start..]);
+            layout::get_column(self.columns.as_ref(), j, &mut direction[range.start..]);
             direction[range.start + j] = M::Real::ONE;
             factor.add_covariance(direction, weight * d);
         }

@@ -49,7 +49,8 @@ use super::{About, Claim, Forgetting, Forgotten, InnerRule, Step};
 use crate::criterion::{Criterion, Watch, CRITERION, DRIFT, MEMORY, PERIOD, THRESHOLD};
 use crate::parameter::{Defaults, Kind, Parameter, Range, Value, Values};
 use crate::state::{State, Visitor};
-use crate::{Error, Factor, Memory, Real, Root};
+use crate::rules::root::Root;
+use crate::{Error, Factor, Memory, Real};
 use core::marker::PhantomData;
 
 const RULE: Parameter = Parameter::rule("rule", "none", "how to forget between the resets");

@@ -23,7 +23,7 @@
 //! Theorem 1.
 
 use super::{About, Claim, Forgetting, Forgotten, Step};
-use crate::factor::dense::check_symmetric;
+use crate::covariance::dense::check_symmetric;
 #[cfg(feature = "alloc")]
 use crate::function::{Argument, MatrixFunction};
 #[cfg(feature = "alloc")]

@@ -25,10 +25,11 @@
 //! Reference: B. Lai, D. S. Bernstein, *Exponential resetting and cyclic resetting recursive
 //! least squares*, IEEE Control Systems Letters 7, 2023.
 
+use forgetting_kernels::Kernels;
 use super::{About, Claim, Forgetting, Forgotten, Step};
-use crate::factor::kernel::dot;
+use forgetting_kernels::kernel::functions::dot;
 use crate::parameter::{Kind, Parameter, Range, Value, Values};
-use crate::root::Root;
+use crate::rules::root::Root;
 use crate::state::{State, Visitor};
 use crate::{Error, Memory, Real};
 
@@ -127,7 +128,7 @@ impl<M: Memory> Forgetting<M> for CyclicResetting<M> {
 
 /// √((1 − λʳ) / λ^(r−1−j)), but no more than makes of `row` the largest regressor that an update
 /// can take.
-fn insertion_weight<T: Real>(lambda: T, rank: usize, j: usize, row: &[T]) -> T {
+fn insertion_weight<T: Kernels>(lambda: T, rank: usize, j: usize, row: &[T]) -> T {
     let power = |exponent: usize| (0..exponent).fold(T::ONE, |product, _| product * lambda);
     let weight = (T::ONE - power(rank)) / power(rank - 1 - j).max(T::FLOOR);
     weight.min(T::CEILING / dot(row, row).max(T::FLOOR)).sqrt()

@@ -32,8 +32,9 @@
 //! squares with data-dependent updating and forgetting factor for systems with bounded noise*,
 //! IEEE Transactions on Information Theory 33, 1987.
 
+use forgetting_kernels::Kernels;
 use super::{About, Claim, Forgetting, Forgotten, Skip, Step};
-use crate::factor::kernel::dot;
+use forgetting_kernels::kernel::functions::dot;
 use crate::parameter::{Parameter, Range, Value, Values};
 use crate::state::{State, Visitor};
 use crate::{Error, Factor, Memory, Real, Sample};
@@ -113,7 +114,7 @@ impl<M: Memory> DataDependent<M> {
 }
 
 /// The value, if it is in range and so is its square.
-fn bounded<T: Real>(parameter: &Parameter, value: T) -> Result<T, Error> {
+fn bounded<T: Kernels>(parameter: &Parameter, value: T) -> Result<T, Error> {
     let value = parameter.check(value)?;
     let squared = value * value;
     if squared > T::ZERO && squared <= T::CEILING {
@@ -179,7 +180,7 @@ struct Terms<'a, T> {
     rows: usize,
 }
 
-impl<'a, T: Real> Terms<'a, T> {
+impl<'a, T: Kernels> Terms<'a, T> {
     /// Computed in `spread` (p x n) and `squares` (p x m).
     #[inline]
     fn of<M: Memory<Real = T>>(

@@ -24,7 +24,7 @@
 
 use super::{About, Claim, Forgetting, Forgotten, Skip, Step};
 use crate::directions::forget_along_sample;
-use crate::factor::{DeadZone, Form};
+use forgetting_kernels::kernel::form::{DeadZone, Form};
 use crate::parameter::{Parameter, Range, Value, Values};
 use crate::{Error, Memory, Real};
 

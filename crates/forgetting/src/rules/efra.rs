@@ -34,7 +34,7 @@
 
 use super::{About, Claim, Forgetting, Forgotten, Step};
 use crate::parameter::{Parameter, Range, Value, Values};
-use crate::spectrum::Spectrum;
+use crate::covariance::spectrum::Spectrum;
 use crate::state::{is_finite, State, Visitor};
 use crate::{Error, Memory, Real};
 
@@ -152,7 +152,7 @@ impl<M: Memory> Forgetting<M> for Efra<M> {
             let mut room = total;
             for (i, &weight) in added.as_ref().iter().enumerate() {
                 if weight > M::Real::ZERO {
-                    spectrum.widen(i, (weight, &mut room), step.factor, step.work);
+                    spectrum.widen(i, (weight, &mut room), step.factor, step.work.gain.as_mut());
                     rank += 1;
                 }
             }

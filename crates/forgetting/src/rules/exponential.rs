@@ -20,7 +20,7 @@
 //! variable-direction forgetting*, IEEE Control Systems Magazine 40(4), 2020, Theorem 1.
 
 use super::{About, Claim, Forgetting, Forgotten, Step};
-use crate::factor::Form;
+use forgetting_kernels::kernel::form::Form;
 use crate::parameter::{Value, Values};
 use crate::{Error, Memory, Real};
 use core::marker::PhantomData;

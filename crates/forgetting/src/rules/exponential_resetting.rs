@@ -22,7 +22,7 @@
 
 use super::{About, Claim, Forgetting, Forgotten, Step};
 use crate::parameter::{Kind, Parameter, Range, Value, Values};
-use crate::root::Root;
+use crate::rules::root::Root;
 use crate::{Error, Memory, Real};
 
 const INFORMATION: Parameter = Parameter::elements(

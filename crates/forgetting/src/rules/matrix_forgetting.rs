@@ -31,8 +31,8 @@
 
 use super::{About, Claim, ExponentialResetting, Forgetting, Forgotten, Step};
 use crate::parameter::{Parameter, Range, Value, Values};
-use crate::root::Root;
-use crate::spectrum::Spectrum;
+use crate::rules::root::Root;
+use crate::covariance::spectrum::Spectrum;
 use crate::{Error, Memory, Real};
 
 const INFORMATION: Parameter = Parameter::real(
@@ -137,10 +137,10 @@ impl<M: Memory> MatrixForgetting<M> {
         let lost = (M::Real::ONE - step.forgetting_factor) * self.share(r);
         if lost > M::Real::ZERO {
             let weight = lost / ((M::Real::ONE - lost) * r);
-            spectrum.widen(i, (weight, room), step.factor, step.work);
+            spectrum.widen(i, (weight, room), step.factor, step.work.gain.as_mut());
         } else if lost < M::Real::ZERO {
             let gained = (-lost * r).min(M::Real::CEILING);
-            spectrum.narrow(i, gained, step.factor, step.work);
+            spectrum.narrow(i, gained, step.factor, (step.work.first.as_mut(), step.work.gain.as_mut()));
         }
         spectrum.set_information(i, r - lost * r);
     }
@@ -183,7 +183,7 @@ impl<M: Memory> Forgetting<M> for MatrixForgetting<M> {
             return; // resetting looks at P alone
         }
         spectrum.follow(step.factor);
-        spectrum.learn_rows(step.sample);
+        spectrum.learn_rows(step.sample.regressors());
     }
 
     #[inline]
@@ -208,7 +208,7 @@ impl<M: Memory> Forgetting<M> for MatrixForgetting<M> {
                 self.forget_along(spectrum, &mut step, i, &mut room);
             }
         }
-        spectrum.learn_rows(step.sample);
+        spectrum.learn_rows(step.sample.regressors());
         Ok(Forgotten::rank(if forgets { n } else { 0 }))
     }
 }

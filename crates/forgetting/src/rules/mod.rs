@@ -5,13 +5,14 @@
 //! its Python class and its place on the command line follow.
 
 mod about;
+mod root;
 
 pub use about::{About, Claim};
 
-use crate::factor::Form;
 use crate::parameter::{Value, Values};
 use crate::state::{State, Visitor};
 use crate::{Error, Factor, Memory, Sample, Work};
+use forgetting_kernels::kernel::form::Form;
 
 /// What a rule is given at each sample.
 #[derive(Debug)]

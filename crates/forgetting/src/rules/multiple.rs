@@ -28,7 +28,8 @@
 //! stability and robustness guarantees*, IEEE Transactions on Automatic Control, 2024, V-J.
 
 use super::{About, Claim, Forgetting, Forgotten, Step};
-use crate::factor::kernel::{add_scaled, bierman, dot, length, place, set_identity};
+use forgetting_kernels::kernel::functions::{add_scaled, bierman, dot};
+use forgetting_kernels::kernel::layout::{length, place, set_identity};
 use crate::parameter::{Kind, Parameter, Range, Value, Values};
 use crate::state::{is_finite, State, Visitor};
 use crate::{Error, Factor, Memory, Real, Sample};

@@ -19,7 +19,7 @@
 //! stability and robustness guarantees*, IEEE Transactions on Automatic Control, 2024.
 
 use super::{About, Claim, Forgetting, Forgotten, Step};
-use crate::factor::Form;
+use forgetting_kernels::kernel::form::Form;
 use crate::parameter::{Value, Values};
 use crate::{Error, Memory, Real};
 use core::marker::PhantomData;

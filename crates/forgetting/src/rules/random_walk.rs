@@ -22,9 +22,9 @@
 //! of Basic Engineering 82, 1960; as forgetting, GF-RLS, Theorem 1.
 
 use super::{About, Claim, Forgetting, Forgotten, Step};
-use crate::factor::kernel::dot;
+use forgetting_kernels::kernel::functions::dot;
 use crate::parameter::{Kind, Parameter, Range, Value, Values};
-use crate::root::Root;
+use crate::rules::root::Root;
 use crate::{Error, Memory, Real};
 
 const PROCESS_NOISE: Parameter = Parameter::elements(

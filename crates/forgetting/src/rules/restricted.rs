@@ -32,7 +32,7 @@
 //! Automatica 26, 1990.
 
 use super::{About, Claim, Forgetting, Forgotten, Step};
-use crate::factor::kernel::{add_scaled, dot};
+use forgetting_kernels::kernel::functions::{add_scaled, dot};
 use crate::parameter::{Value, Values};
 use crate::state::{is_factor, State, Visitor};
 use crate::{Error, Factor, Memory, Real, Sample, Work};

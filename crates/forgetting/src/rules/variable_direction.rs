@@ -37,7 +37,7 @@
 
 use super::{About, Claim, Forgetting, Forgotten, Step};
 use crate::parameter::{Parameter, Range, Value, Values};
-use crate::spectrum::Spectrum;
+use crate::covariance::spectrum::Spectrum;
 use crate::{Error, Memory, Real};
 
 const THRESHOLD: Parameter = Parameter::real(
@@ -103,7 +103,7 @@ impl<M: Memory> VariableDirection<M> {
             if uneven && found > 0 {
                 for i in start..start + found {
                     let weight = (growth - M::Real::ONE) * spectrum.variance(cluster.clone(), i);
-                    spectrum.widen(i, (weight, room), step.factor, step.work);
+                    spectrum.widen(i, (weight, room), step.factor, step.work.gain.as_mut());
                 }
                 spectrum.settle(cluster.clone(), found, growth);
                 done += found;
@@ -135,11 +135,11 @@ fn forget_marked<M: Memory>(
         let marked = step.work.second.as_ref()[i] > M::Real::ZERO;
         let information = spectrum.information()[i];
         if rest_is_small && !marked {
-            spectrum.narrow(i, lost * information, step.factor, step.work);
+            spectrum.narrow(i, lost * information, step.factor, (step.work.first.as_mut(), step.work.gain.as_mut()));
         } else if marked {
             if !rest_is_small {
                 let weight = lost / (lambda * information);
-                spectrum.widen(i, (weight, room), step.factor, step.work);
+                spectrum.widen(i, (weight, room), step.factor, step.work.gain.as_mut());
             }
             spectrum.set_information(i, lambda * information);
         }
@@ -165,7 +165,7 @@ impl<M: Memory> Forgetting<M> for VariableDirection<M> {
     fn follow(&self, spectrum: &mut Spectrum<M>, step: Step<'_, '_, M>) {
         if step.sample.squared_regressors() > M::Real::ZERO {
             spectrum.follow(step.factor);
-            spectrum.learn_rows(step.sample);
+            spectrum.learn_rows(step.sample.regressors());
         }
     }
 
@@ -193,7 +193,7 @@ impl<M: Memory> Forgetting<M> for VariableDirection<M> {
                 done == 0 && 3 * rest < 2 * rank && lambda >= M::Real::from_f64(0.5);
             forget_marked(spectrum, &mut step, rest_is_small, &mut room)?;
         }
-        spectrum.learn_rows(step.sample);
+        spectrum.learn_rows(step.sample.regressors());
         Ok(Forgotten::rank(rank))
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{AnyEstimator, AnyGate, AnyRate, AnyWeighting, Dynamic, Error, Estimator, Memory};
 use super::{Box, Open, Prior, Real, Rule, String, Value, Values, Vec, Visitor};
+use forgetting_kernels::Kernels;
 
 /// A place in the bytes, and whether they have run out.
 pub struct Reader<'a> {
@@ -34,7 +35,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Passes over the watch of version 1: three vectors of n numbers, nine numbers, three counts.
-    pub fn skip_old_watch<T: Real>(&mut self, n: usize) -> Result<(), Error> {
+    pub fn skip_old_watch<T: Kernels>(&mut self, n: usize) -> Result<(), Error> {
         self.take((3 * n + 9) * T::BYTES + 3 * 8).map(|_| ())
     }
 
@@ -112,7 +113,7 @@ impl Values for Parameters {
 
 /// The estimator described before the numbers, with the prior's numbers but its first state; and
 /// whether a watch of version 1 follows its numbers, which remembered less than those now.
-pub fn header<T: Real>(
+pub fn header<T: Kernels>(
     reader: &mut Reader<'_>,
     version: u8,
 ) -> Result<(AnyEstimator<T>, bool), Error> {

@@ -4,12 +4,13 @@ use super::{
     AnyEstimator, Error, Forgetting, Gate, Memory, Rate, Real, Value, Vec, Visitor, Weighting,
 };
 use super::{MARK, VERSION};
+use forgetting_kernels::Kernels;
 
 /// Everything before the numbers.
 ///
 /// # Errors
 /// [`Error::Unsupported`] for a function, which is not data.
-pub fn header<T: Real>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
+pub fn header<T: Kernels>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
     let memory = estimator.prior().memory();
     let mut bytes = Vec::from(MARK.as_slice());
     bytes.extend_from_slice(&[VERSION, T::BYTES as u8]);

@@ -5,8 +5,8 @@ use crate::subjects::{subjects, update, Subject};
 use forgetting::rules::Rule;
 use forgetting::saved::AnyEstimator;
 use forgetting::{
-    Constant, Equal, Estimator, Fixed, Forgetting, Memory, Noise, Packed, Prior, Rate, Real, Size,
-    Weighting,
+    Constant, Equal, Estimator, Fixed, Forgetting, Kernels, Memory, Noise, Packed, Prior, Rate,
+    Real, Size, Weighting,
 };
 
 const SAMPLES: usize = 240;
@@ -40,7 +40,7 @@ where
     told
 }
 
-fn same_bits<T: Real, const N: usize, const P: usize, const M: usize>()
+fn same_bits<T: Kernels, const N: usize, const P: usize, const M: usize>()
 where
     Size<N>: Packed<T>,
 {
@@ -63,13 +63,13 @@ fn fixed_and_dynamic_sizes_give_the_same_bits() {
     same_bits::<f32, 3, 1, 1>();
 }
 
-fn feed<T: Real>(estimator: &mut AnyEstimator<T>, data: &[Datum<T>]) {
+fn feed<T: Kernels>(estimator: &mut AnyEstimator<T>, data: &[Datum<T>]) {
     for Datum { phi, y, gamma } in data {
         update(estimator, phi, y, Noise::Full(gamma)).unwrap();
     }
 }
 
-fn survives_a_save<T: Real>(sizes: (usize, usize, usize)) {
+fn survives_a_save<T: Kernels>(sizes: (usize, usize, usize)) {
     let data = record::<T>(sizes, SAMPLES);
     for subject in subjects() {
         let Some(mut whole) = subject.estimator::<T>(sizes, 0.97, 10.0) else { continue };

@@ -1,7 +1,7 @@
 //! Whole estimators on arbitrary input: never a panic, never an unsound P, never a half-done sample.
 
 use crate::subjects::{subjects, update, Subject};
-use forgetting::{Error, Noise, Real};
+use forgetting::{Error, Kernels, Noise};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
@@ -65,7 +65,7 @@ fn trial() -> impl Strategy<Value = Trial> {
         })
 }
 
-fn check<T: Real>(subject: &Subject, trial: &Trial) {
+fn check<T: Kernels>(subject: &Subject, trial: &Trial) {
     let (n, p, m) = trial.sizes;
     let factor =
         if T::BYTES == 4 { trial.forgetting_factor.max(1e-30) } else { trial.forgetting_factor };

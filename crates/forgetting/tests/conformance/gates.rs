@@ -6,7 +6,8 @@ use forgetting::gates::{Answer, AnyGate, GateFunction, GATES};
 use forgetting::parameter::Kind;
 use forgetting::saved::AnyEstimator;
 use forgetting::{
-    Constant, Dynamic, Equal, Estimator, Fixed, Memory, Noise, Packed, Prior, Real, Size, Skip,
+    Constant, Dynamic, Equal, Estimator, Fixed, Kernels, Memory, Noise, Packed, Prior, Real, Size,
+    Skip,
 };
 
 const SAMPLES: usize = 240;
@@ -176,7 +177,7 @@ fn trace<M: Memory>(
     told
 }
 
-fn same_bits<T: Real, const N: usize, const P: usize, const M: usize>()
+fn same_bits<T: Kernels, const N: usize, const P: usize, const M: usize>()
 where
     Size<N>: Packed<T>,
 {

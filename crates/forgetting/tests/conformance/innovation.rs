@@ -2,10 +2,10 @@
 
 use crate::record::{record, Datum};
 use crate::subjects::{subjects, Subject};
-use forgetting::factor::kernel::Told;
 use forgetting::gates::Answer;
 use forgetting::gates::{AnyGate, DeadZone, MinimumInformation};
 use forgetting::weighting::{AnyWeighting, Huber};
+use forgetting::Outcome;
 use forgetting::{Dynamic, Error, Estimator, Noise, Prior};
 
 /// Largest error of v relative to 1 + |v| over all rules: measured 7e-15.
@@ -129,7 +129,7 @@ fn the_watch_sees_the_same_whichever_way_the_sample_takes() {
         quick.watch();
         let (mut slow, mut at_once) = (quick.clone(), quick.clone());
         slow.keep_prior(true);
-        let (mut told, mut k) = (vec![Told::default(); data.len()], 0);
+        let (mut told, mut k) = (vec![Outcome::default(); data.len()], 0);
         while k < data.len() {
             let taken = at_once.advance(&phi[3 * k..], &y[k..], &mut told[k..], &mut []);
             many += usize::from(taken > 1);

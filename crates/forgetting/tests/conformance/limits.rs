@@ -3,7 +3,7 @@
 use crate::record::{record, Datum};
 use crate::subjects::{rules, subjects, update};
 use forgetting::saved::AnyEstimator;
-use forgetting::{Noise, Real};
+use forgetting::{Kernels, Noise};
 
 /// Rules whose forgetting factor is not all that forgets, and why.
 const MORE_THAN_A_FACTOR: [(&str, &str); 2] = [
@@ -11,13 +11,13 @@ const MORE_THAN_A_FACTOR: [(&str, &str); 2] = [
     ("efra", "adds to P and saturates it, whatever the factor"),
 ];
 
-fn numbers<T: Real>(estimator: &AnyEstimator<T>) -> Vec<u64> {
+fn numbers<T: Kernels>(estimator: &AnyEstimator<T>) -> Vec<u64> {
     let factor = estimator.factor();
     let parts = [estimator.theta(), factor.packed_columns(), factor.diagonal_elements()];
     parts.iter().flat_map(|part| part.iter().map(|x| x.to_f64().to_bits())).collect()
 }
 
-fn factor_one_is_none<T: Real>(sizes: (usize, usize, usize)) {
+fn factor_one_is_none<T: Kernels>(sizes: (usize, usize, usize)) {
     // only what excites: what is too small to inform, some rules skip
     let data: Vec<Datum<T>> = record(sizes, 600).into_iter().take(100).collect();
     let none = rules().find(|subject| subject.about.name == "none").unwrap();
@@ -42,7 +42,7 @@ fn with_factor_one_every_rule_is_none() {
     factor_one_is_none::<f32>((3, 1, 1));
 }
 
-fn silence_is_harmless<T: Real>(sizes: (usize, usize, usize)) {
+fn silence_is_harmless<T: Kernels>(sizes: (usize, usize, usize)) {
     let (n, p, m) = sizes;
     let data: Vec<Datum<T>> = record(sizes, 300);
     for subject in subjects() {
@@ -71,7 +71,7 @@ fn a_silent_regressor_moves_no_parameter() {
 
 /// `forget` cannot reach θ; what could move it is a sample that a rule has rotated or scaled
 /// without its error.
-fn no_error_no_move<T: Real>(sizes: (usize, usize, usize)) {
+fn no_error_no_move<T: Kernels>(sizes: (usize, usize, usize)) {
     let (_, p, m) = sizes;
     let data: Vec<Datum<T>> = record(sizes, 300);
     for subject in subjects() {
@@ -99,7 +99,7 @@ fn a_sample_without_error_moves_no_parameter() {
 /// φ, y and Γ, of which something is wrong.
 type Bad<T> = (Vec<T>, Vec<T>, Option<Vec<T>>);
 
-fn refused_samples_change_nothing<T: Real>(sizes: (usize, usize, usize)) {
+fn refused_samples_change_nothing<T: Kernels>(sizes: (usize, usize, usize)) {
     let (n, p, m) = sizes;
     let data: Vec<Datum<T>> = record(sizes, 60);
     let (nan, infinite) = (T::from_f64(f64::NAN), T::from_f64(f64::INFINITY));

@@ -3,7 +3,7 @@
 use crate::subjects::{rules, sample_in, subjects, Given, Item};
 use forgetting::parameter::{Kind, Parameter, Value, Values};
 use forgetting::rules::{Forgetting, Rule, RULES};
-use forgetting::{Dynamic, Error, Real};
+use forgetting::{Dynamic, Error, Kernels};
 
 const N: usize = 3;
 
@@ -67,7 +67,7 @@ fn bad_items(parameter: &Parameter) -> Vec<Item> {
     items
 }
 
-fn refuses<T: Real>() {
+fn refuses<T: Kernels>() {
     let memory = Dynamic::<T>::new(N, 1, 1).unwrap();
     for subject in rules() {
         for parameter in subject.about.parameters {

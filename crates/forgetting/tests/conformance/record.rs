@@ -1,7 +1,7 @@
 //! Samples to feed, the same in every run.
 #![allow(dead_code, reason = "each test uses its share")]
 
-use forgetting::Real;
+use forgetting::Kernels;
 
 /// Numbers without a pattern (xorshift).
 pub struct Noise(u64);
@@ -28,7 +28,7 @@ pub struct Datum<T> {
 }
 
 /// A record that excites, repeats a row, falls silent, keeps one direction and excites again.
-pub fn record<T: Real>((n, p, m): (usize, usize, usize), samples: usize) -> Vec<Datum<T>> {
+pub fn record<T: Kernels>((n, p, m): (usize, usize, usize), samples: usize) -> Vec<Datum<T>> {
     let mut noise = Noise::new((n * 100 + p * 10 + m) as u64);
     let truth: Vec<f64> = (0..n * m).map(|_| 3.0 * noise.next()).collect();
     let fixed: Vec<f64> = (0..n).map(|_| noise.next()).collect();

@@ -2,12 +2,14 @@
 //! says so before it is refused.
 
 use crate::subjects::{rules, subjects, Subject};
-use forgetting::{Constant, Equal, Error, Estimator, Fixed, Memory, Packed, Prior, Real, Size};
+use forgetting::{
+    Constant, Equal, Error, Estimator, Fixed, Kernels, Memory, Packed, Prior, Real, Size,
+};
 
 /// P₀ = 10 I; what counts as windup is ten times that.
 const VARIANCE: f64 = 10.0;
 
-fn run<T: Real, const N: usize>(subject: &Subject, samples: usize)
+fn run<T: Kernels, const N: usize>(subject: &Subject, samples: usize)
 where
     Size<N>: Packed<T>,
 {

@@ -8,7 +8,8 @@ use forgetting::rules::{About, Rule, RULES};
 use forgetting::saved::AnyEstimator;
 use forgetting::weighting::AnyWeighting;
 use forgetting::{
-    Dynamic, Error, Estimator, Forgetting, Memory, Noise, Prior, Rate, Real, Skip, Weighting,
+    Dynamic, Error, Estimator, Forgetting, Kernels, Memory, Noise, Prior, Rate, Real, Skip,
+    Weighting,
 };
 
 /// Values of parameters.
@@ -99,7 +100,7 @@ impl Subject {
     }
 
     /// The estimator with this rule, or None where the rule does not take so many rows.
-    pub fn estimator<T: Real>(
+    pub fn estimator<T: Kernels>(
         &self,
         sizes: (usize, usize, usize),
         forgetting_factor: f64,

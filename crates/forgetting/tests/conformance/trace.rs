@@ -1,10 +1,10 @@
 //! The bound of P's trace, from which overflow is foreseen, bounds it after every sample.
 
 use crate::subjects::{subjects, update, Subject};
-use forgetting::factor::kernel::Told;
-use forgetting::factor::Factor;
 use forgetting::state::Visitor;
-use forgetting::{Dynamic, Noise, Real};
+use forgetting::Factor;
+use forgetting::Outcome;
+use forgetting::{Dynamic, Kernels, Noise, Real};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use std::ops::RangeInclusive;
@@ -52,7 +52,7 @@ fn trial(
 /// The last number of a factor's state.
 struct Bound<T>(T);
 
-impl<T: Real> Visitor<T> for Bound<T> {
+impl<T: Kernels> Visitor<T> for Bound<T> {
     fn reals(&mut self, values: &mut [T]) {
         self.0 = values.last().copied().unwrap_or(self.0);
     }
@@ -60,7 +60,7 @@ impl<T: Real> Visitor<T> for Bound<T> {
     fn whole(&mut self, _: &mut u64) {}
 }
 
-fn check_bound<T: Real>(factor: &Factor<Dynamic<T>>, of: &str) {
+fn check_bound<T: Kernels>(factor: &Factor<Dynamic<T>>, of: &str) {
     let mut bound = Bound(T::ZERO);
     factor.clone().visit(&mut bound);
     let (bound, trace) = (bound.0.to_f64(), factor.trace().to_f64());
@@ -70,7 +70,7 @@ fn check_bound<T: Real>(factor: &Factor<Dynamic<T>>, of: &str) {
 }
 
 /// Takes samples one by one, or several in one go where the estimator can.
-fn check<T: Real>(subject: &Subject, trial: &Trial, in_one_go: usize) {
+fn check<T: Kernels>(subject: &Subject, trial: &Trial, in_one_go: usize) {
     let ((n, p), ceiling) = (trial.sizes, T::CEILING.to_f64());
     let variance = ceiling.powf(trial.variance);
     let estimator = subject.estimator::<T>((n, p, 1), trial.forgetting_factor, variance);
@@ -85,7 +85,7 @@ fn check<T: Real>(subject: &Subject, trial: &Trial, in_one_go: usize) {
     let (y, mut k) = (vec![T::ONE; in_one_go.max(p)], 0);
     while k < trial.regressors.len() {
         let most = in_one_go.min(trial.regressors.len() - k);
-        let mut told = vec![Told::default(); most];
+        let mut told = vec![Outcome::default(); most];
         let taken = estimator.advance(&phi[k * p * n..], &y[..most], &mut told, &mut []);
         if taken == 0 {
             // a sample may be refused, but not break anything

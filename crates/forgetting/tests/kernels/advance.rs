@@ -1,12 +1,13 @@
 //! Many samples in one go beside the same samples one by one: the same bits for few parameters,
 //! the same to rounding for more.
 
-use forgetting::factor::kernel::{Told, FEW};
 use forgetting::rules::Directional;
+use forgetting::Outcome;
 use forgetting::{
-    Constant, Dynamic, Equal, Estimator, Exponential, Forgetting, NoForgetting, Prior, Real,
+    Constant, Dynamic, Equal, Estimator, Exponential, Forgetting, Kernels, NoForgetting, Prior,
     Subspace,
 };
+use forgetting_kernels::kernel::layout::FEW;
 
 type Plain<F, T> = Estimator<F, Constant<Dynamic<T>>, Equal<Dynamic<T>>, Dynamic<T>>;
 
@@ -17,7 +18,7 @@ pub fn sizes() -> impl Iterator<Item = usize> {
 
 /// A few regressors are short enough to be left out; some errors are large; the last of several
 /// parameters falls silent.
-fn record<T: Real>(n: usize, samples: usize) -> (Vec<T>, Vec<T>) {
+fn record<T: Kernels>(n: usize, samples: usize) -> (Vec<T>, Vec<T>) {
     let mut seed = n as u64 + 7;
     let mut next = move || {
         seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
@@ -35,7 +36,7 @@ fn record<T: Real>(n: usize, samples: usize) -> (Vec<T>, Vec<T>) {
     (phi, y.collect())
 }
 
-fn state<F: Forgetting<Dynamic<T>>, T: Real>(estimator: &Plain<F, T>) -> Vec<u64> {
+fn state<F: Forgetting<Dynamic<T>>, T: Kernels>(estimator: &Plain<F, T>) -> Vec<u64> {
     let factor = estimator.factor();
     [estimator.theta(), factor.packed_columns(), factor.diagonal_elements()]
         .iter()
@@ -45,13 +46,13 @@ fn state<F: Forgetting<Dynamic<T>>, T: Real>(estimator: &Plain<F, T>) -> Vec<u64
 }
 
 /// Whether two numbers of about this size are the same: bit for bit, or to rounding.
-fn same<T: Real>(n: usize, a: T, b: T, size: f64) -> bool {
+fn same<T: Kernels>(n: usize, a: T, b: T, size: f64) -> bool {
     let margin = if n <= FEW { 0.0 } else { 3e3 * T::EPSILON.to_f64() };
     (a.to_f64() - b.to_f64()).abs() <= margin * size
 }
 
 /// Whether two estimators hold the same.
-fn assert_same<F: Forgetting<Dynamic<T>>, T: Real>(a: &Plain<F, T>, b: &Plain<F, T>) {
+fn assert_same<F: Forgetting<Dynamic<T>>, T: Kernels>(a: &Plain<F, T>, b: &Plain<F, T>) {
     let n = a.theta().len();
     let [mut p, mut q] = [vec![T::ZERO; n * n], vec![T::ZERO; n * n]];
     a.factor().reconstruct(&mut p);
@@ -68,7 +69,7 @@ fn assert_same<F: Forgetting<Dynamic<T>>, T: Real>(a: &Plain<F, T>, b: &Plain<F,
 }
 
 /// What the watch says, if there is one.
-fn health<F: Forgetting<Dynamic<T>>, T: Real>(estimator: &Plain<F, T>) -> Vec<u64> {
+fn health<F: Forgetting<Dynamic<T>>, T: Kernels>(estimator: &Plain<F, T>) -> Vec<u64> {
     let Some(health) = estimator.health() else { return Vec::new() };
     [health.variance, health.growth, health.noise_variance, health.correlation]
         .iter()
@@ -89,7 +90,7 @@ enum Watched {
 
 /// Goes both ways through a record of which one sample cannot be used; returns the last state,
 /// and how often P had wound up.
-fn follow<F: Forgetting<Dynamic<T>>, T: Real>(rule: F, n: usize, watched: Watched) -> Vec<u64> {
+fn follow<F: Forgetting<Dynamic<T>>, T: Kernels>(rule: F, n: usize, watched: Watched) -> Vec<u64> {
     const SAMPLES: usize = 90;
     let memory = Dynamic::<T>::new(n, 1, 1).unwrap();
     let (rate, prior) = (Constant::new(T::from_f64(0.93)), Prior::scalar(memory, T::from_f64(9.0)));
@@ -103,7 +104,7 @@ fn follow<F: Forgetting<Dynamic<T>>, T: Real>(rule: F, n: usize, watched: Watche
     }
     let (mut phi, y) = record::<T>(n, SAMPLES);
     phi[50 * n] = T::from_f64(f64::NAN);
-    let (mut told, mut thetas) = ([Told::default(); 17], vec![T::ZERO; 17 * n]);
+    let (mut told, mut thetas) = ([Outcome::default(); 17], vec![T::ZERO; 17 * n]);
     let (mut k, mut windups) = (0, 0u64);
     while k < SAMPLES {
         let taken = together.advance(&phi[k * n..], &y[k..], &mut told, &mut thetas);
@@ -145,7 +146,7 @@ fn follow<F: Forgetting<Dynamic<T>>, T: Real>(rule: F, n: usize, watched: Watche
 }
 
 /// Every rule that is done while it measures; returns all states.
-pub fn check<T: Real>(n: usize) -> Vec<u64> {
+pub fn check<T: Kernels>(n: usize) -> Vec<u64> {
     let threshold = T::from_f64(1e-3);
     let mut states = Vec::new();
     for watched in [Watched::Neither, Watched::Apart, Watched::Both] {

@@ -2,8 +2,8 @@
 
 #![allow(clippy::needless_range_loop, reason = "indices as in the equations")]
 
-use forgetting::factor::kernel;
-use forgetting::Real;
+use forgetting::Kernels;
+use forgetting_kernels::kernel::{functions, layout};
 
 /// The sizes: every one around the blocks of eight columns, and some larger.
 pub fn sizes() -> impl Iterator<Item = usize> {
@@ -18,7 +18,7 @@ impl Numbers {
         self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
-    fn vector<T: Real>(&mut self, n: usize) -> Vec<T> {
+    fn vector<T: Kernels>(&mut self, n: usize) -> Vec<T> {
         (0..n).map(|_| T::from_f64(self.next())).collect()
     }
 }
@@ -30,15 +30,15 @@ struct Case<T> {
     x: Vec<T>,
 }
 
-impl<T: Real> Case<T> {
+impl<T: Kernels> Case<T> {
     fn new(n: usize, seed: u64) -> Self {
         let mut numbers = Numbers(seed.wrapping_add(n as u64));
-        let mut columns = vec![T::ZERO; kernel::length::<T>(n)];
-        kernel::set_identity(&mut columns, n);
+        let mut columns = vec![T::ZERO; layout::length::<T>(n)];
+        layout::set_identity(&mut columns, n);
         let small = T::from_f64(1.0 / (n as f64).sqrt());
         for j in 0..n {
             let column: Vec<T> = (0..j).map(|_| small * T::from_f64(numbers.next())).collect();
-            kernel::put_column(&mut columns, j, &column);
+            layout::put_column(&mut columns, j, &column);
         }
         let diagonal = (0..n).map(|_| T::from_f64(1.5 + numbers.next())).collect();
         Self { n, columns, diagonal, x: numbers.vector(n) }
@@ -50,7 +50,7 @@ impl<T: Real> Case<T> {
         for j in 0..n {
             u[j][j] = 1.0;
             let mut column = vec![T::ZERO; j];
-            kernel::get_column(&self.columns, j, &mut column);
+            layout::get_column(&self.columns, j, &mut column);
             for (i, x) in column.iter().enumerate() {
                 u[i][j] = x.to_f64();
             }
@@ -69,18 +69,18 @@ impl<T: Real> Case<T> {
     fn check_padding(&self) {
         let mut rest = self.columns.clone();
         for j in 0..self.n {
-            let diagonal = &mut rest[kernel::place::<T>(j, j)];
+            let diagonal = &mut rest[layout::place::<T>(j, j)];
             assert!(*diagonal == T::ONE, "the diagonal of column {j} of {}", self.n);
             *diagonal = T::ZERO;
             for i in 0..j {
-                rest[kernel::place::<T>(i, j)] = T::ZERO;
+                rest[layout::place::<T>(i, j)] = T::ZERO;
             }
         }
         assert!(rest.iter().all(|&x| x == T::ZERO), "beside U of {}", self.n);
     }
 }
 
-fn doubles<T: Real>(x: &[T]) -> Vec<f64> {
+fn doubles<T: Kernels>(x: &[T]) -> Vec<f64> {
     x.iter().map(|x| x.to_f64()).collect()
 }
 
@@ -93,7 +93,7 @@ fn inner(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// Rounding grows at most with the length of the sums: 40 n ε leaves a factor of ten.
-fn close<T: Real>(what: &str, n: usize, a: &[f64], b: &[f64]) {
+fn close<T: Kernels>(what: &str, n: usize, a: &[f64], b: &[f64]) {
     let tolerance = 40.0 * n as f64 * T::EPSILON.to_f64();
     let scale = b.iter().fold(1.0f64, |scale, x| scale.max(x.abs()));
     for (i, (x, y)) in a.iter().zip(b).enumerate() {
@@ -102,7 +102,7 @@ fn close<T: Real>(what: &str, n: usize, a: &[f64], b: &[f64]) {
 }
 
 /// Compares every kernel at size n; returns all numbers that came out, for bits to be compared.
-pub fn check<T: Real>(n: usize, seed: u64) -> Vec<f64> {
+pub fn check<T: Kernels>(n: usize, seed: u64) -> Vec<f64> {
     let mut out = Vec::new();
     products::<T>(n, seed, &mut out);
     measurement::<T>(n, seed, &mut out);
@@ -110,35 +110,35 @@ pub fn check<T: Real>(n: usize, seed: u64) -> Vec<f64> {
     out
 }
 
-fn products<T: Real>(n: usize, seed: u64, out: &mut Vec<f64>) {
+fn products<T: Kernels>(n: usize, seed: u64, out: &mut Vec<f64>) {
     let case = Case::<T>::new(n, seed);
     let (u, x) = (case.u(), doubles(&case.x));
     let transposed: Vec<Vec<f64>> = (0..n).map(|j| (0..n).map(|i| u[i][j]).collect()).collect();
     let mut product = case.x.clone();
-    kernel::multiply(&case.columns, &mut product);
+    functions::multiply(&case.columns, &mut product);
     close::<T>("U x", n, &doubles(&product), &times(&u, &x));
     out.extend(doubles(&product));
-    kernel::solve(&case.columns, &mut product);
+    functions::solve(&case.columns, &mut product);
     close::<T>("U⁻¹ U x", n, &doubles(&product), &x);
     out.extend(doubles(&product));
     let mut product = case.x.clone();
-    kernel::multiply_transposed(&case.columns, &mut product);
+    functions::multiply_transposed(&case.columns, &mut product);
     close::<T>("Uᵀ x", n, &doubles(&product), &times(&transposed, &x));
     out.extend(doubles(&product));
-    let leverage = kernel::leverage(&case.columns, &case.diagonal, &case.x).to_f64();
+    let leverage = functions::leverage(&case.columns, &case.diagonal, &case.x).to_f64();
     close::<T>("x P x", n, &[leverage], &[inner(&x, &times(&case.p(), &x))]);
-    let dot = kernel::dot(&case.x, &case.diagonal).to_f64();
+    let dot = functions::dot(&case.x, &case.diagonal).to_f64();
     close::<T>("x d", n, &[dot], &[inner(&x, &doubles(&case.diagonal))]);
     out.extend([leverage, dot]);
 }
 
-fn measurement<T: Real>(n: usize, seed: u64, out: &mut Vec<f64>) {
+fn measurement<T: Kernels>(n: usize, seed: u64, out: &mut Vec<f64>) {
     let mut case = Case::<T>::new(n, seed);
     let (p, x) = (case.p(), doubles(&case.x));
     let gain_before = times(&p, &x);
     let a = 1.0 + inner(&x, &gain_before);
     let mut gain = vec![T::ZERO; n];
-    let measured = kernel::bierman(&mut case.columns, &mut case.diagonal, &case.x, &mut gain);
+    let measured = functions::bierman(&mut case.columns, &mut case.diagonal, &case.x, &mut gain);
     close::<T>("a", n, &[measured.variance.to_f64()], &[a]);
     close::<T>("s", n, &[measured.leverage.to_f64()], &[a - 1.0]);
     close::<T>("P x", n, &doubles(&gain), &gain_before);
@@ -153,13 +153,13 @@ fn measurement<T: Real>(n: usize, seed: u64, out: &mut Vec<f64>) {
     out.extend(doubles(&gain));
 }
 
-fn dyad<T: Real>(n: usize, seed: u64, out: &mut Vec<f64>) {
+fn dyad<T: Kernels>(n: usize, seed: u64, out: &mut Vec<f64>) {
     for c in [0.0, 1e-3, 2.5] {
         let mut case = Case::<T>::new(n, seed);
         let (p, x, mut used) = (case.p(), doubles(&case.x), case.x.clone());
         let d = doubles(&case.diagonal);
         let given = T::from_f64(c);
-        kernel::agee_turner(&mut case.columns, &mut case.diagonal, &mut used, given);
+        functions::agee_turner(&mut case.columns, &mut case.diagonal, &mut used, given);
         for (i, row) in case.p().iter().enumerate() {
             let wanted: Vec<f64> =
                 (0..n).map(|j| given.to_f64().mul_add(x[i] * x[j], p[i][j])).collect();

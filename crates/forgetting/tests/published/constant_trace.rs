@@ -2,7 +2,7 @@
 
 use crate::forms::{records, worst, Dense, Published};
 use forgetting::rules::ConstantTrace;
-use forgetting::{Dynamic, Real};
+use forgetting::{Dynamic, Kernels};
 
 /// The published recursion; its P_k+1 is kept, its P₊ is what is compared.
 fn step(
@@ -20,7 +20,7 @@ fn step(
     }
 }
 
-fn rule<T: Real>(level: f64, floor: f64, n: usize, p: usize) -> ConstantTrace<Dynamic<T>> {
+fn rule<T: Kernels>(level: f64, floor: f64, n: usize, p: usize) -> ConstantTrace<Dynamic<T>> {
     let memory = Dynamic::<T>::new(n, p, 1).unwrap();
     ConstantTrace::new(T::from_f64(level), T::from_f64(floor), memory).unwrap()
 }

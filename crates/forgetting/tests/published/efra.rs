@@ -2,7 +2,7 @@
 
 use crate::forms::{gain, records, worst, Dense, Published};
 use forgetting::rules::Efra;
-use forgetting::{Dynamic, Real};
+use forgetting::{Dynamic, Kernels};
 
 const LAMBDA: f64 = 0.95;
 
@@ -31,7 +31,7 @@ fn step(
     }
 }
 
-fn rule<T: Real>(a: f64, b: f64, d: f64) -> Efra<Dynamic<T>> {
+fn rule<T: Kernels>(a: f64, b: f64, d: f64) -> Efra<Dynamic<T>> {
     Efra::new(T::from_f64(a), T::from_f64(b), T::from_f64(d)).unwrap()
 }
 

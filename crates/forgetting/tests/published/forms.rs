@@ -5,7 +5,7 @@
 
 pub use crate::dense::Dense;
 use forgetting::rules::Forgetting;
-use forgetting::{Constant, Dynamic, Equal, Estimator, Memory, Prior, Real};
+use forgetting::{Constant, Dynamic, Equal, Estimator, Kernels, Memory, Prior};
 
 /// How the regressors of a record behave.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,7 +88,7 @@ pub fn gain(covariance: &Dense, phi: &Dense, c: f64) -> Dense {
 pub type Plain<F, T> = Estimator<F, Constant<Dynamic<T>>, Equal<Dynamic<T>>, Dynamic<T>>;
 
 /// An estimator with θ₀ = 0 and P₀ = `variance`·I and the constant factor `lambda`.
-pub fn estimator<T: Real, F: Forgetting<Dynamic<T>>>(
+pub fn estimator<T: Kernels, F: Forgetting<Dynamic<T>>>(
     rule: F,
     lambda: f64,
     memory: Dynamic<T>,
@@ -100,7 +100,7 @@ pub fn estimator<T: Real, F: Forgetting<Dynamic<T>>>(
 }
 
 /// Takes a sample.
-pub fn update<T: Real, F: Forgetting<Dynamic<T>>>(
+pub fn update<T: Kernels, F: Forgetting<Dynamic<T>>>(
     estimator: &mut Plain<F, T>,
     phi: &Dense,
     y: &Dense,
@@ -112,7 +112,7 @@ pub fn update<T: Real, F: Forgetting<Dynamic<T>>>(
 }
 
 /// θ and P of an estimator.
-pub fn result<T: Real, F: Forgetting<Dynamic<T>>>(estimator: &Plain<F, T>) -> (Dense, Dense) {
+pub fn result<T: Kernels, F: Forgetting<Dynamic<T>>>(estimator: &Plain<F, T>) -> (Dense, Dense) {
     let n = estimator.prior().memory().parameters();
     let mut covariance = vec![T::ZERO; n * n];
     estimator.factor().reconstruct(&mut covariance);
@@ -121,7 +121,7 @@ pub fn result<T: Real, F: Forgetting<Dynamic<T>>>(estimator: &Plain<F, T>) -> (D
 }
 
 /// The largest distance of θ and P from a published form, which `step` advances by a sample.
-pub fn worst<T: Real, F: Forgetting<Dynamic<T>>>(
+pub fn worst<T: Kernels, F: Forgetting<Dynamic<T>>>(
     rule: F,
     lambda: f64,
     variance: f64,

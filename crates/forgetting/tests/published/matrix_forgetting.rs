@@ -28,7 +28,7 @@ fn step(power: i32, shift: Option<f64>) -> impl FnMut(&mut Published, &Dense, &D
     }
 }
 
-fn rule<T: forgetting::Real>(
+fn rule<T: forgetting::Kernels>(
     n: usize,
     p: usize,
     power: i32,

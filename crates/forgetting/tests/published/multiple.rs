@@ -2,7 +2,7 @@
 
 use crate::forms::{estimator, record, records, result, update, worst, Dense, Input, Published};
 use forgetting::rules::Multiple;
-use forgetting::{Constant, Dynamic, Equal, Estimator, Prior, Real};
+use forgetting::{Constant, Dynamic, Equal, Estimator, Kernels, Prior};
 
 /// R̄ = blkdiag(λ_b R_bb)
 fn forget(information: &Dense, factors: &[f64], blocks: &[usize]) -> Dense {
@@ -25,7 +25,7 @@ fn step(factors: Vec<f64>, blocks: Vec<usize>) -> impl FnMut(&mut Published, &De
     }
 }
 
-fn rule<T: Real>(factors: &[f64], blocks: &[usize], p: usize) -> Multiple<Dynamic<T>> {
+fn rule<T: Kernels>(factors: &[f64], blocks: &[usize], p: usize) -> Multiple<Dynamic<T>> {
     let memory = Dynamic::<T>::new(blocks.iter().sum(), p, 1).unwrap();
     let factors: Vec<T> = factors.iter().map(|&x| T::from_f64(x)).collect();
     Multiple::new(&factors, blocks, memory).unwrap()

@@ -2,7 +2,7 @@
 
 use crate::forms::{estimator, record, result, update, Dense, Input, Published, INPUTS};
 use forgetting::rules::VariableDirection;
-use forgetting::{Constant, Dynamic, Equal, Estimator, Prior, Real};
+use forgetting::{Constant, Dynamic, Equal, Estimator, Kernels, Prior};
 
 const LAMBDA: f64 = 0.95;
 const VARIANCE: f64 = 10.0;
@@ -42,7 +42,7 @@ fn columns(a: &Dense, range: std::ops::Range<usize>) -> Dense {
 }
 
 /// The largest distance of θ and P from the published form over a record.
-fn compare<T: Real>(input: Input, n: usize, p: usize, threshold: f64, samples: usize) -> f64 {
+fn compare<T: Kernels>(input: Input, n: usize, p: usize, threshold: f64, samples: usize) -> f64 {
     let memory = Dynamic::<T>::new(n, p, 1).unwrap();
     let rule = VariableDirection::new(T::from_f64(threshold)).unwrap();
     let mut ours = estimator(rule, LAMBDA, memory, VARIANCE);

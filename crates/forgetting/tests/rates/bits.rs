@@ -6,9 +6,9 @@ use forgetting::rates::{AnyRate, RATES};
 use forgetting::rules::Rule;
 use forgetting::saved::AnyEstimator;
 use forgetting::weighting::{AnyWeighting, WEIGHTINGS};
-use forgetting::{Dynamic, Error, Estimator, Fixed, Memory, Noise, Prior, Real, Subspace};
+use forgetting::{Dynamic, Error, Estimator, Fixed, Kernels, Memory, Noise, Prior, Real, Subspace};
 
-fn saves_in_the_middle<T: Real>(rate: &str, weighting: &str) {
+fn saves_in_the_middle<T: Kernels>(rate: &str, weighting: &str) {
     let memory = Dynamic::<T>::new(3, 2, 2).unwrap();
     let mut whole = make(memory, ["subspace", rate, weighting]);
     for stop in [0, 1, 137] {

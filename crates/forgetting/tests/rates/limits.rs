@@ -4,7 +4,7 @@ use crate::subjects::{factors, make, sample, take, with, RULES};
 use forgetting::parameter::{Defaults, Value};
 use forgetting::rates::{AnyRate, Rate, RATES};
 use forgetting::rules::Rule;
-use forgetting::{Dynamic, Error, Estimator, Memory, Noise, Prior, Real};
+use forgetting::{Dynamic, Error, Estimator, Kernels, Memory, Noise, Prior};
 
 /// The number that the rate has for this parameter.
 fn number<M: Memory>(rate: &AnyRate<M>, name: &str) -> Option<f64> {
@@ -17,7 +17,7 @@ fn number<M: Memory>(rate: &AnyRate<M>, name: &str) -> Option<f64> {
     found
 }
 
-fn stays_within_its_limits<T: Real>(rate: &str, sizes: (usize, usize, usize)) {
+fn stays_within_its_limits<T: Kernels>(rate: &str, sizes: (usize, usize, usize)) {
     let memory = Dynamic::<T>::new(sizes.0, sizes.1, sizes.2).unwrap();
     let narrow = [("smallest", Value::Real(0.95)), ("largest", Value::Real(0.98))];
     for values in [&[][..], &narrow] {
@@ -74,7 +74,7 @@ fn no_factor_depends_on_the_units_of_the_output() {
 }
 
 /// 10⁵ samples with nothing in them, then noise without a regressor, then one direction.
-fn survives_silence<T: Real>(rate: &str, rule: &str) {
+fn survives_silence<T: Kernels>(rate: &str, rule: &str) {
     let memory = Dynamic::<T>::new(3, 1, 1).unwrap();
     let mut estimator = make(memory, [rule, rate, "student_t"]);
     factors(&mut estimator, 0, 120);

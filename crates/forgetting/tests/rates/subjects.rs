@@ -5,7 +5,7 @@ use forgetting::rates::{AboutRate, AnyRate, Evidence, Function, RATES};
 use forgetting::rules::Rule;
 use forgetting::saved::AnyEstimator;
 use forgetting::weighting::AnyWeighting;
-use forgetting::{Dynamic, Error, Estimator, Forgetting, Memory, Noise, Prior, Real};
+use forgetting::{Dynamic, Error, Estimator, Forgetting, Kernels, Memory, Noise, Prior, Real};
 
 /// Rules that use the factor of the rate, whatever it is.
 pub const RULES: [&str; 3] = ["exponential", "exponential_resetting", "subspace"];
@@ -37,7 +37,7 @@ impl<M: Memory> Values for Given<'_, M> {
 pub type With<F, M> = Estimator<F, AnyRate<M>, AnyWeighting<M>, M>;
 
 /// An estimator with a rule, a rate and a weighting of these names.
-pub fn make<T: Real>(memory: Dynamic<T>, [rule, rate, weighting]: [&str; 3]) -> AnyEstimator<T> {
+pub fn make<T: Kernels>(memory: Dynamic<T>, [rule, rate, weighting]: [&str; 3]) -> AnyEstimator<T> {
     with(Rule::named(rule, &Defaults, memory).unwrap(), memory, [rate, weighting], &[])
 }
 

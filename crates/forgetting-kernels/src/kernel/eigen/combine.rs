@@ -1,0 +1,115 @@
+//! New eigenvectors as combinations of old ones: the one step that costs O(n³).
+
+use crate::number::vector::Vector;
+use crate::number::Real;
+
+/// Rows of a panel, which then stays in the fastest memory.
+const DEPTH: usize = 64;
+/// Room for the longest chunk of numbers.
+const LONGEST: usize = 16;
+
+/// The old eigenvectors that are combined: the rows of n numbers with a component other than 0.
+#[derive(Clone, Copy)]
+pub struct Rows<'a, T> {
+    /// rows of n numbers
+    pub vectors: &'a [T],
+    /// numbers of a row
+    pub n: usize,
+    /// one for each row
+    pub components: &'a [T],
+}
+
+/// Row j of `product` ← Σ_i turn_ji·(row i).
+///
+/// In tiles of `GROUP` rows and one chunk of columns that stay in registers, over panels of the
+/// vectors that are copied to be neighbours. The terms of a sum are added in their order.
+#[inline(always)]
+pub fn combine<T: Real, V: Vector<T>, const GROUP: usize>(
+    turn: &[T],
+    active: usize,
+    rows: Rows<'_, T>,
+    product: &mut [T],
+) {
+    let lanes = size_of::<T::Chunk>() / size_of::<T>();
+    let mut panel = [T::ZERO; DEPTH * LONGEST];
+    for column in (0..rows.n).step_by(lanes) {
+        let place = Place { column, width: lanes.min(rows.n - column), n: rows.n };
+        let (mut first, mut filled) = (0, 0);
+        for (row, &component) in rows.vectors.chunks_exact(rows.n).zip(rows.components) {
+            if component == T::ZERO {
+                continue;
+            }
+            panel[filled * lanes..][..place.width]
+                .copy_from_slice(&row[column..column + place.width]);
+            filled += 1;
+            if first + filled == active || filled == DEPTH {
+                let (panel, _) = T::chunks(&panel[..filled * lanes]);
+                add::<T, V, GROUP>(turn, active, (panel, first), place, product);
+                (first, filled) = (first + filled, 0);
+            }
+        }
+    }
+}
+
+/// The columns of the product that a panel is for.
+#[derive(Clone, Copy)]
+struct Place {
+    column: usize,
+    width: usize,
+    n: usize,
+}
+
+/// Adds what a panel, of the old vectors from `first` on, contributes to all new ones; the first
+/// panel replaces.
+#[inline(always)]
+fn add<T: Real, V: Vector<T>, const GROUP: usize>(
+    turn: &[T],
+    active: usize,
+    (panel, first): (&[T::Chunk], usize),
+    place: Place,
+    product: &mut [T],
+) {
+    let Place { column, width, n } = place;
+    let mut j = 0;
+    while j < active {
+        let rows = if active - j >= GROUP { GROUP } else { 1 };
+        let mut sums = [V::splat(T::ZERO); GROUP];
+        if rows == GROUP {
+            let weights =
+                core::array::from_fn(|r| &turn[(j + r) * active + first..][..panel.len()]);
+            tile::<T, V, GROUP>(weights, panel, &mut sums);
+        } else {
+            let mut one = [sums[0]];
+            tile::<T, V, 1>([&turn[j * active + first..][..panel.len()]], panel, &mut one);
+            sums[0] = one[0];
+        }
+        for (r, sum) in sums.iter().take(rows).enumerate() {
+            let mut buffer = [T::ZERO; LONGEST];
+            if let Some(chunk) = T::chunks_mut(&mut buffer).0.first_mut() {
+                sum.store(chunk);
+            }
+            let target = &mut product[(j + r) * n + column..][..width];
+            for (x, &sum) in target.iter_mut().zip(&buffer) {
+                *x = if first == 0 { sum } else { *x + sum };
+            }
+        }
+        j += rows;
+    }
+}
+
+/// `R` combinations of the rows of a panel.
+#[inline(always)]
+fn tile<T: Real, V: Vector<T>, const R: usize>(
+    weights: [&[T]; R],
+    panel: &[T::Chunk],
+    sums: &mut [V; R],
+) {
+    let mut partial = *sums;
+    for (i, chunk) in panel.iter().enumerate() {
+        let x = V::load(chunk);
+        for r in 0..R {
+            partial[r] = V::splat(weights[r][i]).mul_add(x, partial[r]);
+        }
+    }
+    *sums = partial;
+}

@@ -1,0 +1,40 @@
+//! What forgetting does to P on the way to a measurement of one row, where the two are one pass.
+
+use crate::number::Real;
+
+/// A way to forget that is done together with the measurement.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Form<T> {
+    /// P̄ = growth·P, growth ≥ 1
+    Scale {
+        /// what P is multiplied with
+        growth: T,
+    },
+    /// P̄ = P + weight·φ̄ᵀ(φ̄Rφ̄ᵀ)⁻¹φ̄, and nothing at all for a regressor within the dead zone
+    Along {
+        /// (1 − λ)/λ
+        weight: T,
+        /// regressors that are left out
+        dead_zone: DeadZone<T>,
+    },
+}
+
+/// Regressors that are too short to count as information.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum DeadZone<T> {
+    /// shorter than this
+    Below(T),
+    /// no longer than this
+    UpTo(T),
+}
+
+impl<T: Real> DeadZone<T> {
+    /// Whether a regressor with this ‖φ̄‖² is in it.
+    #[inline(always)]
+    pub fn holds(self, squares: T) -> bool {
+        match self {
+            Self::Below(least) => !(squares.sqrt() >= least),
+            Self::UpTo(most) => !(squares.sqrt() > most),
+        }
+    }
+}

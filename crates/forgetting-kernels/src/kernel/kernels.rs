@@ -1,0 +1,138 @@
+//! All kernels, as functions of a number type.
+
+use super::agee_turner::AgeeTurner;
+use super::eigen::RankOneUpdate;
+use super::lanes::streams::{Outputs, Samples, Streams};
+use super::lanes::Predict;
+use super::measure::Measure;
+use super::measured::Measured;
+use super::runs::Steps;
+use super::triangle::{Leverage, Multiply, MultiplyTransposed, Solve};
+use super::variances::Variances;
+use super::vectors::{AddScaled, Arrive, Dot};
+use super::watch::{Observation, Observations, Watch};
+use crate::number::Real;
+
+/// A number type with its kernels, each compiled once, in the crate that defines the type
+/// ([`compile_kernels`](crate::compile_kernels)).
+pub trait Kernels: Real {
+    /// Σ aᵢ bᵢ
+    fn dot(task: Dot<'_, Self>) -> Self;
+    /// y ← y + c·x
+    fn add_scaled(task: AddScaled<'_, Self>);
+    /// φ·θ and φ·φ, with a copy of φ.
+    fn arrive(task: Arrive<'_, Self>) -> (Self, Self);
+    /// f·P·fᵀ
+    fn leverage(task: Leverage<'_, Self>) -> Self;
+    /// Forgets in one of the forms, measures one row and corrects θ; None if P has no room.
+    fn measure(task: Measure<'_, Self>) -> Option<Measured<Self>>;
+    /// P ← P + c·x·xᵀ
+    fn agee_turner(task: AgeeTurner<'_, Self>);
+    /// x ← U⁻¹·x
+    fn solve(task: Solve<'_, Self>);
+    /// x ← U·x
+    fn multiply(task: Multiply<'_, Self>);
+    /// x ← Uᵀ·x
+    fn multiply_transposed(task: MultiplyTransposed<'_, Self>);
+    /// The diagonal of P.
+    fn variances(task: Variances<'_, Self>);
+    /// Takes samples one after the other; returns how many.
+    fn advance(steps: &mut Steps<'_, Self>) -> usize;
+    /// Takes a sample of each stream; returns how many used it.
+    fn advance_streams(
+        streams: &mut Streams<'_, Self>,
+        samples: Samples<'_, Self>,
+        outputs: &mut Outputs<'_, Self>,
+    ) -> usize;
+    /// φθ of each stream.
+    fn predict_streams(task: Predict<'_, Self>);
+    /// Shows a run of samples of one row to the monitor; returns how many of them left P wound up.
+    fn watch_run(task: Watch<'_, Self>, samples: Observations<'_, Self>) -> usize;
+    /// Shows one sample to the monitor, None if it was left out.
+    fn watch_one(task: Watch<'_, Self>, sample: Option<Observation<'_, Self>>) -> usize;
+    /// The eigenvalues and eigenvectors after a rank-one change; false if they are out of range.
+    fn update_eigenvectors(task: RankOneUpdate<'_, Self>) -> bool;
+}
+
+/// Compiles all kernels for a number type, with the instructions that `$Dispatch` chooses.
+///
+/// ```text
+/// compile_kernels!(f64, Portable);
+/// ```
+#[macro_export]
+macro_rules! compile_kernels {
+    ($Number:ty, $Dispatch:ty) => {
+        const _: () = {
+            use $crate::kernel::agee_turner::AgeeTurner;
+            use $crate::kernel::eigen::RankOneUpdate;
+            use $crate::kernel::lanes::streams::{Outputs, Samples, Streams};
+            use $crate::kernel::lanes::{Advance, Predict};
+            use $crate::kernel::measure::Measure;
+            use $crate::kernel::measured::Measured;
+            use $crate::kernel::runs::{self, Steps};
+            use $crate::kernel::triangle::{Leverage, Multiply, MultiplyTransposed, Solve};
+            use $crate::kernel::variances::Variances;
+            use $crate::kernel::vectors::{AddScaled, Arrive, Dot};
+            use $crate::kernel::watch::{Observation, Observations, Watch};
+            use $crate::{Dispatch, Kernels};
+
+            impl Kernels for $Number {
+                fn dot(task: Dot<'_, Self>) -> Self {
+                    <$Dispatch>::run(task)
+                }
+                fn add_scaled(task: AddScaled<'_, Self>) {
+                    <$Dispatch>::run(task)
+                }
+                fn arrive(task: Arrive<'_, Self>) -> (Self, Self) {
+                    <$Dispatch>::run(task)
+                }
+                fn leverage(task: Leverage<'_, Self>) -> Self {
+                    <$Dispatch>::run(task)
+                }
+                fn measure(task: Measure<'_, Self>) -> Option<Measured<Self>> {
+                    <$Dispatch>::run(task)
+                }
+                fn agee_turner(task: AgeeTurner<'_, Self>) {
+                    <$Dispatch>::run(task)
+                }
+                fn solve(task: Solve<'_, Self>) {
+                    <$Dispatch>::run(task)
+                }
+                fn multiply(task: Multiply<'_, Self>) {
+                    <$Dispatch>::run(task)
+                }
+                fn multiply_transposed(task: MultiplyTransposed<'_, Self>) {
+                    <$Dispatch>::run(task)
+                }
+                fn variances(task: Variances<'_, Self>) {
+                    <$Dispatch>::run(task)
+                }
+                fn advance(steps: &mut Steps<'_, Self>) -> usize {
+                    runs::advance::<Self, $Dispatch>(steps)
+                }
+                fn advance_streams(
+                    streams: &mut Streams<'_, Self>,
+                    samples: Samples<'_, Self>,
+                    outputs: &mut Outputs<'_, Self>,
+                ) -> usize {
+                    <$Dispatch>::run(Advance { streams, samples, outputs })
+                }
+                fn predict_streams(task: Predict<'_, Self>) {
+                    <$Dispatch>::run(task)
+                }
+                fn watch_run(task: Watch<'_, Self>, samples: Observations<'_, Self>) -> usize {
+                    <$Dispatch>::run(task.of(samples))
+                }
+                fn watch_one(
+                    task: Watch<'_, Self>,
+                    sample: Option<Observation<'_, Self>>,
+                ) -> usize {
+                    <$Dispatch>::run(task.of(sample))
+                }
+                fn update_eigenvectors(task: RankOneUpdate<'_, Self>) -> bool {
+                    <$Dispatch>::run(task)
+                }
+            }
+        };
+    };
+}

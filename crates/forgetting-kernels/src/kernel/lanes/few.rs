@@ -1,0 +1,221 @@
+//! A few streams of at most ten parameters.
+
+#![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
+
+use super::{accepts, adds, make_room, report, Abreast, Fate, Form, LaneOutcome, Line, Real};
+use crate::kernel::lanes::storage::Layout;
+use crate::kernel::layout::FEW;
+use crate::kernel::registers::{Gain, Small, Unit};
+use crate::kernel::vectors::few_products;
+use core::hint::black_box;
+use core::marker::PhantomData;
+
+/// The numbers of a few streams of a block, where they are kept.
+pub struct State<'a, T: Real, A, const N: usize> {
+    lines: &'a mut [Line<T>],
+    /// the first stream
+    lane: usize,
+    lanes: PhantomData<A>,
+}
+
+/// The most numbers of a stream.
+const MOST: usize = Layout::new(FEW).length();
+
+impl<'a, T: Real, A: Abreast<T>, const N: usize> State<'a, T, A, N> {
+    const LAYOUT: Layout = Layout::new(N);
+
+    /// The streams of a block from `lane` on.
+    #[inline(always)]
+    pub fn of(lines: &'a mut [Line<T>], lane: usize) -> Self {
+        Self { lines: &mut lines[..Self::LAYOUT.length()], lane, lanes: PhantomData }
+    }
+
+    #[inline(always)]
+    fn read(&self, at: usize) -> A {
+        A::read(&self.lines[at].0.as_ref()[self.lane..])
+    }
+
+    #[inline(always)]
+    fn write(&mut self, at: usize, numbers: A) {
+        numbers.write(&mut self.lines[at].0.as_mut()[self.lane..]);
+    }
+
+    /// N numbers from `at` on.
+    #[inline(always)]
+    fn several(&self, at: usize) -> [A; N] {
+        let mut numbers = [A::splat(T::ZERO); N];
+        for i in 0..N {
+            numbers[i] = self.read(at + i);
+        }
+        numbers
+    }
+
+    /// What is read from now on comes from memory: there are not enough registers to keep it, and
+    /// a copy elsewhere in memory gains nothing.
+    #[inline(always)]
+    fn read_again(&mut self) {
+        let lines = black_box(core::mem::take(&mut self.lines));
+        self.lines = &mut lines[..Self::LAYOUT.length()];
+    }
+
+    /// All numbers, if some streams are to get them back.
+    #[inline(always)]
+    fn copy_unless_all(&self, used: A::Mask) -> Option<[A; MOST]> {
+        if A::all(used) {
+            return None;
+        }
+        let mut copy = [A::splat(T::ZERO); MOST];
+        for at in 0..Self::LAYOUT.length() {
+            copy[at] = self.read(at);
+        }
+        Some(copy)
+    }
+
+    /// The trace of P, summed as the trace of a single factor is.
+    #[inline(always)]
+    fn trace(&self) -> A {
+        let (zero, one) = (A::splat(T::ZERO), A::splat(T::ONE));
+        let mut trace = zero;
+        for c in 0..N {
+            let mut squares = zero;
+            for i in 0..c {
+                let u = self.get(c, i);
+                squares = u.mul_add(u, squares);
+            }
+            trace = trace + self.read(Self::LAYOUT.diagonal() + c) * (one + squares);
+        }
+        trace
+    }
+}
+
+impl<T: Real, A: Abreast<T>, const N: usize> Unit<A, N> for State<'_, T, A, N> {
+    #[inline(always)]
+    fn get(&self, c: usize, i: usize) -> A {
+        self.read(Self::LAYOUT.column(c) + i)
+    }
+
+    #[inline(always)]
+    fn set(&mut self, c: usize, i: usize, u: A) {
+        self.write(Self::LAYOUT.column(c) + i, u);
+    }
+
+    #[inline(always)]
+    fn last_pass(&mut self, d: &[A; N]) {
+        for c in 0..N {
+            self.write(Self::LAYOUT.diagonal() + c, d[c]);
+        }
+        self.read_again();
+    }
+}
+
+/// Takes a sample of each stream.
+#[inline(always)]
+pub fn advance<T: Real, A: Abreast<T>, const N: usize>(
+    state: State<'_, T, A, N>,
+    (form, strength): (Form<T>, A),
+    (f, y): (&[A; N], A),
+    with_leverage: bool,
+) -> LaneOutcome<A> {
+    let layout = const { Layout::new(N) };
+    let theta = state.several(layout.theta());
+    let (product, squares) = few_products(f, &theta);
+    let error = y - product;
+    let accepted = accepts(error, squares);
+    let d = state.several(layout.diagonal());
+    let small = Small { u: state, d };
+    match form {
+        Form::Scale { .. } => scale(small, strength, f, (y, error, squares), accepted),
+        Form::Along { dead_zone, .. } => {
+            let informed = A::both(accepted, dead_zone.leaves(squares));
+            let arrived = (y, error, squares);
+            along(small, strength, f, arrived, (accepted, informed), with_leverage)
+        }
+    }
+}
+
+/// P̄ = growth·P.
+#[inline(always)]
+fn scale<T: Real, A: Abreast<T>, const N: usize>(
+    mut small: Small<A, N, State<'_, T, A, N>>,
+    growth: A,
+    f: &[A; N],
+    (y, error, squares): (A, A, A),
+    accepted: A::Mask,
+) -> LaneOutcome<A> {
+    let layout = const { Layout::new(N) };
+    let bound = small.u.read(layout.bound());
+    let room = (growth, A::splat(T::ZERO));
+    let (bound, used) = make_room(bound, room, accepted, || small.u.trace());
+    let before = small.u.copy_unless_all(used);
+    let gain = small.scale_and_measure::<T, true>(growth, f);
+    let outcome = correct(small, &gain, (bound, error), (before.as_ref(), used));
+    match before {
+        None => outcome,
+        Some(_) => {
+            let fate = Fate { accepted, informed: accepted, used };
+            report::mixed(&fate, (y, squares), outcome, error)
+        }
+    }
+}
+
+/// P̄ = P + weight·fᵀ(fRfᵀ)⁻¹f.
+#[inline(always)]
+fn along<T: Real, A: Abreast<T>, const N: usize>(
+    mut small: Small<A, N, State<'_, T, A, N>>,
+    weight: A,
+    f: &[A; N],
+    (y, error, squares): (A, A, A),
+    (accepted, informed): (A::Mask, A::Mask),
+    with_leverage: bool,
+) -> LaneOutcome<A> {
+    let layout = const { Layout::new(N) };
+    let (zero, one) = (A::splat(T::ZERO), A::splat(T::ONE));
+    let mut along = small.along(f);
+    let (mut c, mut t) = (weight / along.information, along.information / weight);
+    let adds = adds(c);
+    if !A::all(adds) {
+        (c, t) = (A::select(adds, c, zero), A::select(adds, t, one));
+        for i in 0..N {
+            along.z[i] = A::select(adds, along.z[i], zero);
+            along.q[i] = A::select(adds, along.q[i], zero);
+        }
+    }
+    let bound = small.u.read(layout.bound());
+    let room = (one, c * squares);
+    let (bound, used) = make_room(bound, room, informed, || small.u.trace());
+    small.u.read_again();
+    let before = small.u.copy_unless_all(used);
+    let silent = match before {
+        Some(_) if with_leverage => small.leverage(f),
+        _ => error,
+    };
+    let gain = small.add_and_measure::<T, true>((c, t), &along, f);
+    let outcome = correct(small, &gain, (bound, error), (before.as_ref(), used));
+    match before {
+        None => outcome,
+        Some(_) => report::mixed(&Fate { accepted, informed, used }, (y, squares), outcome, silent),
+    }
+}
+
+/// θ ← θ + P·fᵀe. The streams that did not use their samples become again what they were `before`.
+#[inline(always)]
+fn correct<T: Real, A: Abreast<T>, const N: usize>(
+    small: Small<A, N, State<'_, T, A, N>>,
+    gain: &Gain<A, N>,
+    (bound, error): (A, A),
+    (before, used): (Option<&[A; MOST]>, A::Mask),
+) -> LaneOutcome<A> {
+    let (layout, mut state) = (const { Layout::new(N) }, small.u);
+    let step = error * gain.inverse_a;
+    for i in 0..N {
+        let at = layout.theta() + i;
+        state.write(at, step.mul_add(gain.k[i], state.read(at)));
+    }
+    state.write(layout.bound(), bound);
+    if let Some(before) = before {
+        for at in 0..layout.length() {
+            state.write(at, A::select(used, state.read(at), before[at]));
+        }
+    }
+    LaneOutcome { error, leverage: gain.s, codes: None }
+}

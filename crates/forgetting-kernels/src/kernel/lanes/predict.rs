@@ -1,0 +1,52 @@
+//! φθ of each stream.
+
+use crate::kernel::dispatch::Kernel;
+use crate::kernel::lanes::storage::{Layout, Line};
+use crate::number::lane::Lane;
+use crate::number::vector::{Abreast, Vector};
+use crate::number::Real;
+
+/// Writes φθ of each stream to `prediction`.
+pub struct Predict<'a, T: Real> {
+    /// where the numbers of a stream are
+    pub layout: Layout,
+    /// the numbers of the streams
+    pub lines: &'a [Line<T>],
+    /// n numbers a stream
+    pub phi: &'a [T],
+    /// one for each stream
+    pub prediction: &'a mut [T],
+}
+
+impl<T: Real> Kernel<T> for Predict<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn size(&self) -> usize {
+        self.phi.len()
+    }
+
+    #[inline(always)]
+    fn run<V: Vector<T>, const GROUP: usize>(self) {
+        let Self { layout, lines, phi, prediction } = self;
+        let (lanes, first) = (Line::<T>::LANES, layout.theta());
+        let n = layout.length() - first;
+        let blocks = lines.chunks_exact(layout.length());
+        let samples = phi.chunks(n * lanes).zip(prediction.chunks_mut(lanes));
+        for (block, (phi, prediction)) in blocks.zip(samples) {
+            let mut products = Line::splat(T::ZERO);
+            for lane in (0..lanes).step_by(V::Abreast::COUNT) {
+                let mut product = V::Abreast::splat(T::ZERO);
+                for (i, theta) in block[first..].iter().enumerate() {
+                    let phi = V::Abreast::at(|k| match phi.get((lane + k) * n + i) {
+                        Some(&phi) => phi,
+                        None => T::ZERO,
+                    });
+                    product = phi.mul_add(V::Abreast::read(&theta.0.as_ref()[lane..]), product);
+                }
+                product.write(&mut products.0.as_mut()[lane..]);
+            }
+            prediction.copy_from_slice(&products.0.as_ref()[..prediction.len()]);
+        }
+    }
+}

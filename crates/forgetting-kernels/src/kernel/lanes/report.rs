@@ -1,0 +1,114 @@
+//! What a few streams told, written where it was asked for.
+
+use super::{Abreast, Fate, LaneOutcome, Line, Outputs, Real, DEAD_ZONE, MISSING, REFUSED};
+use core::ops::Range;
+
+/// The outcome where not every stream used its sample; `silent` is the leverage of those in the
+/// dead zone.
+#[inline(always)]
+pub fn mixed<T: Real, A: Abreast<T>>(
+    fate: &Fate<T, A>,
+    (y, squares): (A, A),
+    all: LaneOutcome<A>,
+    silent: A,
+) -> LaneOutcome<A> {
+    let number = |x: f64| A::splat(T::from_f64(x));
+    let code = |code: u8| number(f64::from(code));
+    let choose = |used, dead, without| {
+        let accepted = A::select(fate.informed, without, dead);
+        A::select(fate.used, used, A::select(fate.accepted, accepted, without))
+    };
+    let nan = number(f64::NAN);
+    let there = A::both(y.at_most(y), squares.at_most(squares));
+    let refused = A::select(there, code(REFUSED), code(MISSING));
+    LaneOutcome {
+        error: choose(all.error, all.error, nan),
+        leverage: choose(all.leverage, silent, nan),
+        codes: Some(choose(code(0), code(DEAD_ZONE), refused)),
+    }
+}
+
+/// What a block of streams outputs.
+pub struct Report<T: Real> {
+    error: Line<T>,
+    leverage: Line<T>,
+    codes: Line<T>,
+    /// whether all used their samples
+    all: bool,
+}
+
+impl<T: Real> Report<T> {
+    #[inline(always)]
+    pub fn new() -> Self {
+        let zeros = Line::splat(T::ZERO);
+        Self { error: zeros, leverage: zeros, codes: zeros, all: true }
+    }
+
+    /// Takes note of what the streams from `lane` on outputs.
+    #[inline(always)]
+    pub fn note<A: Abreast<T>>(&mut self, lane: usize, outcome: &LaneOutcome<A>) {
+        outcome.error.write(&mut self.error.0.as_mut()[lane..]);
+        outcome.leverage.write(&mut self.leverage.0.as_mut()[lane..]);
+        if let Some(codes) = outcome.codes {
+            codes.write(&mut self.codes.0.as_mut()[lane..]);
+            self.all = false;
+        }
+    }
+
+    /// Writes it for these streams, of as many as there are lanes or the last of all; returns how
+    /// many used their samples.
+    #[inline(always)]
+    pub fn write(
+        &self,
+        unused: &mut [u64],
+        outputs: &mut Outputs<'_, T>,
+        streams: Range<usize>,
+    ) -> usize {
+        if let Some(error) = &mut outputs.error {
+            put(&mut error[streams.clone()], &self.error);
+        }
+        if let Some(leverage) = &mut outputs.leverage {
+            put(&mut leverage[streams.clone()], &self.leverage);
+        }
+        let mut used = streams.len();
+        if !self.all {
+            for (lane, unused) in unused[streams.clone()].iter_mut().enumerate() {
+                let not = u64::from(self.codes.get(lane) > T::ZERO);
+                *unused += not;
+                used -= not as usize;
+            }
+        }
+        if let Some(skipped) = &mut outputs.skipped {
+            let skipped = &mut skipped[streams];
+            if self.all {
+                clear(skipped);
+            } else {
+                for (lane, code) in skipped.iter_mut().enumerate() {
+                    *code = self.codes.get(lane).to_f64() as u8;
+                }
+            }
+        }
+        used
+    }
+}
+
+/// Writes the first numbers of `line`.
+#[inline(always)]
+fn put<T: Real>(place: &mut [T], line: &Line<T>) {
+    match T::chunks_mut(place).0 {
+        // no loop and no call
+        [chunk, ..] => *chunk = line.0,
+        [] => place.copy_from_slice(&line.0.as_ref()[..place.len()]),
+    }
+}
+
+#[inline(always)]
+fn clear(codes: &mut [u8]) {
+    let (eights, rest) = codes.as_chunks_mut::<8>();
+    for eight in eights {
+        *eight = [0; 8];
+    }
+    for code in rest {
+        *code = 0;
+    }
+}

@@ -1,0 +1,78 @@
+//! Where the numbers of the streams are kept.
+//!
+//! Streams are taken in blocks of as many as a vector has lanes. Each number of the state is one
+//! vector for the block, with a stream in each lane, and the vectors of a block follow each other
+//! in memory in the order in which an estimator shows them to be saved:
+//!
+//! ```text
+//! U above its diagonal, by columns | D | bound of P's trace | θ
+//! n (n − 1)/2                        n   1                    n
+//! ```
+
+use crate::number::Real;
+
+/// The numbers of a vector, at the start of a cache line.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+pub struct Line<T: Real>(pub T::Chunk);
+
+impl<T: Real> Line<T> {
+    /// How many streams a block has.
+    pub const LANES: usize = 64 / T::BYTES;
+
+    /// `x` in every lane.
+    #[inline(always)]
+    pub fn splat(x: T) -> Self {
+        Self(T::chunks(&[x; 16]).0[0])
+    }
+
+    /// The number in a lane.
+    #[inline(always)]
+    pub fn get(&self, lane: usize) -> T {
+        self.0.as_ref()[lane]
+    }
+
+    #[inline(always)]
+    /// Puts a number into a lane.
+    pub fn set(&mut self, lane: usize, x: T) {
+        self.0.as_mut()[lane] = x;
+    }
+}
+
+/// Where the numbers of a stream of n parameters are.
+#[derive(Clone, Copy, Debug)]
+pub struct Layout {
+    n: usize,
+}
+
+impl Layout {
+    /// Of n parameters.
+    pub const fn new(n: usize) -> Self {
+        Self { n }
+    }
+
+    /// How many numbers there are.
+    pub const fn length(self) -> usize {
+        self.theta() + self.n
+    }
+
+    /// Column j of U above its diagonal.
+    pub const fn column(self, j: usize) -> usize {
+        j * j.saturating_sub(1) / 2
+    }
+
+    /// D
+    pub const fn diagonal(self) -> usize {
+        self.column(self.n)
+    }
+
+    /// The bound of P's trace.
+    pub const fn bound(self) -> usize {
+        self.diagonal() + self.n
+    }
+
+    /// θ
+    pub const fn theta(self) -> usize {
+        self.bound() + 1
+    }
+}

@@ -1,0 +1,141 @@
+//! At most ten parameters: U, D and θ stay in registers.
+
+#![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
+
+use super::super::bierman::largest;
+use super::super::measure::{along, scale};
+use super::super::outcome::Outcome;
+use super::super::registers::{Kept, Small, Unit};
+use super::super::vectors::few_products;
+use super::{accepts, Steps};
+use crate::kernel::dispatch::Kernel;
+use crate::kernel::form::Form;
+use crate::number::lane::One;
+use crate::number::vector::Vector;
+use crate::number::Real;
+
+/// Takes samples of `N` parameters that forget in one form.
+pub struct Few<'a, 'b, T, const N: usize, const ALONG: bool>(pub &'b mut Steps<'a, T>);
+
+impl<T: Real, const N: usize, const ALONG: bool> Kernel<T> for Few<'_, '_, T, N, ALONG> {
+    type Output = usize;
+
+    #[inline(always)]
+    fn size(&self) -> usize {
+        N
+    }
+
+    #[inline(always)]
+    fn run<V: Vector<T>, const GROUP: usize>(self) -> usize {
+        // wide vectors are for many: without this they would be compiled for few, too
+        if GROUP >= 8 {
+            return 0;
+        }
+        match N {
+            // there is less arithmetic than waiting for it
+            0..=4 => in_registers::<T, V::One, N, ALONG>(self.0),
+            _ => in_place::<T, N, ALONG>(self.0),
+        }
+        .unwrap_or(0)
+    }
+}
+
+/// With U in registers.
+#[inline(always)]
+fn in_registers<T: Real, A: One<T>, const N: usize, const ALONG: bool>(
+    task: &mut Steps<'_, T>,
+) -> Option<usize> {
+    let mut small = Small::<A, N>::load(task.place.columns, task.place.diagonal.first_chunk()?);
+    let taken = all::<T, A, _, N, ALONG>(task, &mut small)?;
+    small.store(task.place.columns, task.place.diagonal.first_chunk_mut()?);
+    Some(taken)
+}
+
+/// With U where it is kept.
+#[inline(always)]
+fn in_place<T: Real, const N: usize, const ALONG: bool>(task: &mut Steps<'_, T>) -> Option<usize> {
+    let d = *task.place.diagonal.first_chunk()?;
+    let u = Kept::of::<N>(core::mem::take(&mut task.place.columns));
+    let mut small = Small { u, d };
+    let taken = all::<T, T, _, N, ALONG>(task, &mut small)?;
+    *task.place.diagonal.first_chunk_mut()? = small.d;
+    Some(taken)
+}
+
+#[inline(always)]
+fn all<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const ALONG: bool>(
+    task: &mut Steps<'_, T>,
+    small: &mut Small<A, N, U>,
+) -> Option<usize> {
+    let mut theta = task.theta.first_chunk::<N>()?.map(A::splat);
+    let (most, mut taken) = (task.told.len().min(task.y.len()), 0);
+    while taken < most {
+        match some::<T, A, U, N, ALONG>(task, taken, small, &mut theta) {
+            0 => break,
+            took => taken += took,
+        }
+    }
+    *task.theta.first_chunk_mut()? = theta.map(One::get);
+    Some(taken)
+}
+
+/// Samples from `at` on; none only if the next is none to take here.
+#[inline(always)]
+fn some<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const ALONG: bool>(
+    task: &mut Steps<'_, T>,
+    at: usize,
+    small: &mut Small<A, N, U>,
+    theta: &mut [A; N],
+) -> usize {
+    let Steps { place, form, phi, y, told, thetas, .. } = task;
+    let mut after = thetas.get_mut(at * N..).unwrap_or_default().as_chunks_mut::<N>().0.iter_mut();
+    let samples = phi[at * N..].as_chunks::<N>().0.iter().zip(&y[at..]).zip(&mut told[at..]);
+    let (mut least, mut taken) = (small.least(), 0);
+    for ((f, &y), told) in samples {
+        let f = f.map(A::splat);
+        let (product, squares) = few_products(&f, theta);
+        let (error, squares) = (y - product.get(), squares.get());
+        if !accepts(error, squares) {
+            break;
+        }
+        if ALONG && form.leaves_out(squares) {
+            *told = left_out(small, error, &f);
+        } else {
+            let sample = (&f, squares);
+            let taken = match *form {
+                Form::Scale { growth } if !ALONG => {
+                    scale::<T, A, U, N, false>(small, place.bound, growth, sample, least)
+                }
+                Form::Along { weight, .. } if ALONG => {
+                    along::<T, A, U, N, false>(small, place.bound, weight, sample, least)
+                }
+                _ => None,
+            };
+            let Some((gain, forgot)) = taken else { break };
+            // D becomes no less than D / a
+            least *= gain.inverse_a.get();
+            let step = A::splat(error) * gain.inverse_a;
+            for i in 0..N {
+                theta[i] = step.mul_add(gain.k[i], theta[i]);
+            }
+            let (leverage, largest) = (gain.s.get(), gain.largest.get());
+            *told = Outcome { error, leverage, largest, forgot, used: true, windup: false };
+        }
+        if let Some(after) = after.next() {
+            *after = theta.map(One::get);
+        }
+        taken += 1;
+    }
+    taken
+}
+
+/// A sample in the dead zone.
+#[inline(always)]
+fn left_out<T: Real, A: One<T>, U: Unit<A, N>, const N: usize>(
+    small: &Small<A, N, U>,
+    error: T,
+    f: &[A; N],
+) -> Outcome<T> {
+    let (leverage, d) = (small.leverage(f).get(), small.d.map(One::get));
+    Outcome { error, leverage, largest: largest(&d), forgot: false, used: false, windup: false }
+}

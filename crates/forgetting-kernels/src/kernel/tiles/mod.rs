@@ -1,0 +1,101 @@
+//! Sweeps over a block of eight neighbouring columns of U, tile by tile.
+//!
+//! How many columns a pass over the tiles takes depends on the registers of the machine. The order
+//! in which the terms of a sum are added, and in which the columns change a row, does not.
+
+#![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
+
+mod add;
+mod chunks;
+mod dots;
+mod eliminate;
+mod rank_one;
+
+pub use add::add_columns;
+pub use chunks::{Long, LongMut};
+pub use dots::{dots, dots_beside};
+pub use eliminate::eliminate;
+pub use rank_one::{turn_columns, Turn};
+
+use super::layout::{tiles_of, BLOCK};
+use crate::number::vector::Vector;
+use crate::number::{copy_some, Real};
+
+/// Eight columns of as many rows as a vector has numbers.
+pub type Tile<T> = [<T as Real>::Chunk; BLOCK];
+/// A number for each column of a block.
+pub type PerColumn<T> = [T; BLOCK];
+
+/// The tiles of block `b`.
+#[inline(always)]
+pub fn block<T: Real>(columns: &[T], b: usize) -> &[Tile<T>] {
+    &T::chunks(columns).0.as_chunks().0[tiles_of::<T>(b)]
+}
+
+/// The tiles of block `b`, to be written.
+#[inline(always)]
+pub fn block_mut<T: Real>(columns: &mut [T], b: usize) -> &mut [Tile<T>] {
+    &mut T::chunks_mut(columns).0.as_chunks_mut().0[tiles_of::<T>(b)]
+}
+
+/// The triangle of block `b`, by columns, without the diagonal.
+#[inline(always)]
+pub fn triangle<T: Real>(block: &[Tile<T>], b: usize) -> [PerColumn<T>; BLOCK] {
+    let mut triangle = [[T::ZERO; BLOCK]; BLOCK];
+    if let Some(tile) = block.last() {
+        let first = b * BLOCK % T::ROWS;
+        for c in 0..BLOCK {
+            let column = &tile[c].as_ref()[first..first + BLOCK];
+            triangle[c][..c].copy_from_slice(&column[..c]);
+        }
+    }
+    triangle
+}
+
+/// Those of `numbers` that belong to block `b`; `beyond` for columns that there are none of.
+#[inline(always)]
+pub fn eight<T: Real>(numbers: &[T], b: usize, beyond: T) -> PerColumn<T> {
+    let numbers = &numbers[b * BLOCK..];
+    match numbers.first_chunk() {
+        Some(eight) => *eight,
+        None => {
+            let mut eight = [beyond; BLOCK];
+            copy_some(&mut eight, numbers);
+            eight
+        }
+    }
+}
+
+/// D of columns that there are none of: with room for rounding above the floor.
+#[inline(always)]
+pub fn beyond<T: Real>() -> T {
+    T::FLOOR * T::from_f64(4.0)
+}
+
+/// Puts them back.
+#[inline(always)]
+pub fn put_eight<T: Real>(numbers: &mut [T], b: usize, eight: &PerColumn<T>) {
+    let numbers = &mut numbers[b * BLOCK..];
+    match numbers.first_chunk_mut() {
+        Some(numbers) => *numbers = *eight,
+        None => {
+            for c in 0..BLOCK {
+                if c < numbers.len() {
+                    numbers[c] = eight[c];
+                }
+            }
+        }
+    }
+}
+
+/// A number in every lane, for each of C columns from `FIRST` on.
+#[inline(always)]
+fn splat<T: Real, V: Vector<T>, const C: usize, const FIRST: usize>(
+    numbers: &PerColumn<T>,
+) -> [V; C] {
+    let mut vectors = [V::splat(T::ZERO); C];
+    for c in 0..C {
+        vectors[c] = V::splat(numbers[FIRST + c]);
+    }
+    vectors
+}

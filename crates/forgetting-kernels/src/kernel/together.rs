@@ -1,0 +1,78 @@
+//! Samples that arrive together, and what they do to θ.
+
+use crate::number::vector::Vector;
+use crate::number::Real;
+
+/// Puts the n numbers of each sample, which come one after the other at the beginning of `phi`, side
+/// by side in `f`, and zeros after them; returns ‖φ‖² of each.
+#[inline(always)]
+pub fn arrive<T: Real, V: Vector<T>, const S: usize>(
+    phi: &[T],
+    n: usize,
+    f: &mut [[T::Chunk; S]],
+) -> [T; S] {
+    let (full, rest) = (n / T::ROWS, n % T::ROWS);
+    let mut squares = [V::splat(T::ZERO); S];
+    for (t, f) in f[..full].iter_mut().enumerate() {
+        for l in 0..S {
+            f[l] = T::chunks(&phi[l * n + t * T::ROWS..]).0[0];
+            let f = V::load(&f[l]);
+            squares[l] = f.mul_add(f, squares[l]);
+        }
+    }
+    if rest > 0 {
+        for l in 0..S {
+            let numbers = &phi[l * n + full * T::ROWS..];
+            let lanes = match T::chunks(numbers).0.first() {
+                // what follows are numbers of other samples
+                Some(chunk) => V::load(chunk).first(rest),
+                None => V::load(&T::chunk(&numbers[..rest])),
+            };
+            lanes.store(&mut f[full][l]);
+            squares[l] = lanes.mul_add(lanes, squares[l]);
+        }
+    }
+    V::sums(squares)
+}
+
+/// φθ of each.
+#[inline(always)]
+pub fn predict<T: Real, V: Vector<T>, const S: usize>(theta: &[T], f: &[[T::Chunk; S]]) -> [T; S] {
+    let (full, rest) = T::chunks(theta);
+    let (mut predicted, last) = ([V::splat(T::ZERO); S], T::chunk(rest));
+    for (t, f) in f.iter().enumerate() {
+        let theta = V::load(full.get(t).unwrap_or(&last));
+        for l in 0..S {
+            predicted[l] = V::load(&f[l]).mul_add(theta, predicted[l]);
+        }
+    }
+    V::sums(predicted)
+}
+
+/// θ ← θ + Σ_l step_l k_l, one after the other; `gain` gives k_l for the rows of a tile, `thetas`
+/// has room for θ after each sample, or is empty.
+#[inline(always)]
+pub fn correct<'a, T: Real, V: Vector<T>, const S: usize>(
+    theta: &mut [T],
+    steps: &[T; S],
+    gain: impl Fn(usize, usize) -> &'a T::Chunk,
+    thetas: &mut [T],
+) {
+    let (n, steps) = (theta.len(), steps.map(V::splat));
+    let (chunks, rest) = T::chunks_mut(theta);
+    let mut last = T::chunk(rest);
+    for t in 0..n.div_ceil(T::ROWS) {
+        let chunk = chunks.get_mut(t).unwrap_or(&mut last);
+        let mut now = V::load(chunk);
+        for l in 0..S {
+            now = steps[l].mul_add(V::load(gain(l, t)), now);
+            if !thetas.is_empty() {
+                now.store(chunk);
+                let after = &mut thetas[l * n + t * T::ROWS..(l + 1) * n];
+                after.iter_mut().zip(chunk.as_ref()).for_each(|(to, &x)| *to = x);
+            }
+        }
+        now.store(chunk);
+    }
+    rest.iter_mut().zip(last.as_ref()).for_each(|(to, &x)| *to = x);
+}

@@ -1,0 +1,186 @@
+//! Neighbouring numbers that go through the same operations together.
+
+use crate::number::eight::Eight;
+use crate::number::lane::{Lane, One};
+use crate::number::Real;
+use core::array;
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A chunk of numbers ([`Real::Chunk`]) in vector registers.
+///
+/// A number type has one for every set of instructions that it may run on; all give the same
+/// bits.
+pub trait Vector<T: Real>: Lane<T> {
+    /// A single number, as this set of instructions works fastest with one.
+    type One: One<T>;
+    /// What the streams of a fleet run in.
+    type Abreast: Abreast<T>;
+    /// A number for each column of a block.
+    type Eight: Eight<T>;
+
+    /// The numbers of `chunk`.
+    fn load(chunk: &T::Chunk) -> Self;
+    /// Writes all lanes to `chunk`.
+    fn store(self, chunk: &mut T::Chunk);
+    /// So many lanes from the first on, and zeros.
+    #[inline(always)]
+    fn first(self, count: usize) -> Self {
+        let mut position = T::chunk(&[]);
+        for (i, position) in position.as_mut().iter_mut().enumerate() {
+            *position = T::from_f64(i as f64);
+        }
+        let within = Self::load(&position).less_than(Self::splat(T::from_f64(count as f64)));
+        Self::select(within, self, Self::splat(T::ZERO))
+    }
+    /// The sum of all lanes: halves added to halves down to four, then pairs.
+    fn sum(self) -> T;
+    /// The sum of each of `C` vectors.
+    #[inline(always)]
+    fn sums<const C: usize>(vectors: [Self; C]) -> [T; C] {
+        let mut sums = [T::ZERO; C];
+        for c in 0..C {
+            sums[c] = vectors[c].sum();
+        }
+        sums
+    }
+}
+
+/// A number of each of a few streams, in as few registers as there are: long recursions need the
+/// others for their own numbers.
+pub trait Abreast<T: Real>: Lane<T> {
+    /// How many streams, at most those of a chunk.
+    const COUNT: usize;
+    /// The first [`Abreast::COUNT`] of `numbers`, of which there are as many at least.
+    fn read(numbers: &[T]) -> Self;
+    /// Writes them to the first [`Abreast::COUNT`] of `numbers`, of which there are as many.
+    fn write(self, numbers: &mut [T]);
+    /// The number at each position.
+    fn at(number: impl Fn(usize) -> T) -> Self;
+    /// Asks memory for what will be needed soon, where a machine has an instruction for that.
+    #[inline(always)]
+    fn prefetch<L>(_line: &L) {}
+}
+
+impl<T: Real> Abreast<T> for T {
+    const COUNT: usize = 1;
+
+    #[inline(always)]
+    fn read(numbers: &[T]) -> T {
+        numbers[0]
+    }
+    #[inline(always)]
+    fn write(self, numbers: &mut [T]) {
+        numbers[0] = self;
+    }
+    #[inline(always)]
+    fn at(number: impl Fn(usize) -> T) -> T {
+        number(0)
+    }
+}
+
+/// `L` numbers, 8 or 16, as an array: what the compiler makes of it.
+#[derive(Clone, Copy, Debug)]
+pub struct Lanes<T, const L: usize>(pub(crate) [T; L]);
+
+macro_rules! lane_by_lane {
+    ($($Trait:ident $method:ident;)*) => {$(
+        impl<T: Real, const L: usize> $Trait for Lanes<T, L> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(mut self, other: Self) -> Self {
+                for lane in 0..L {
+                    self.0[lane] = self.0[lane].$method(other.0[lane]);
+                }
+                self
+            }
+        }
+    )*};
+}
+lane_by_lane! { Add add; Sub sub; Mul mul; Div div; }
+
+impl<T: Real, const L: usize> Neg for Lanes<T, L> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(self.0.map(Neg::neg))
+    }
+}
+
+impl<T: Real, const L: usize> Lane<T> for Lanes<T, L> {
+    type Mask = [bool; L];
+
+    #[inline(always)]
+    fn splat(x: T) -> Self {
+        Self([x; L])
+    }
+    #[inline(always)]
+    fn mul_add(mut self, factor: Self, term: Self) -> Self {
+        for lane in 0..L {
+            self.0[lane] = Real::mul_add(self.0[lane], factor.0[lane], term.0[lane]);
+        }
+        self
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(array::from_fn(|lane| Real::max(self.0[lane], other.0[lane])))
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self(array::from_fn(|lane| Real::min(self.0[lane], other.0[lane])))
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(self.0.map(Real::abs))
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(self.0.map(Real::sqrt))
+    }
+    #[inline(always)]
+    fn at_most(self, limit: Self) -> [bool; L] {
+        array::from_fn(|lane| self.0[lane] <= limit.0[lane])
+    }
+    #[inline(always)]
+    fn less_than(self, limit: Self) -> [bool; L] {
+        array::from_fn(|lane| self.0[lane] < limit.0[lane])
+    }
+    #[inline(always)]
+    fn both(a: [bool; L], b: [bool; L]) -> [bool; L] {
+        array::from_fn(|lane| a[lane] & b[lane])
+    }
+    #[inline(always)]
+    fn all(mask: [bool; L]) -> bool {
+        mask.iter().fold(true, |all, &lane| all & lane)
+    }
+    #[inline(always)]
+    fn select(mask: [bool; L], yes: Self, no: Self) -> Self {
+        Self(array::from_fn(|lane| T::select(mask[lane], yes.0[lane], no.0[lane])))
+    }
+}
+
+impl<T: Real<Chunk = [T; L]>, const L: usize> Vector<T> for Lanes<T, L> {
+    type Abreast = T;
+    type One = T;
+    type Eight = Lanes<T, 8>;
+
+    #[inline(always)]
+    fn load(chunk: &[T; L]) -> Self {
+        Self(*chunk)
+    }
+    #[inline(always)]
+    fn store(self, chunk: &mut [T; L]) {
+        *chunk = self.0;
+    }
+    #[inline(always)]
+    fn sum(self) -> T {
+        let mut lanes = self.0;
+        let mut count = L;
+        while count > 4 {
+            count /= 2;
+            for lane in 0..count {
+                lanes[lane] += lanes[lane + count];
+            }
+        }
+        (lanes[0] + lanes[1]) + (lanes[2] + lanes[3])
+    }
+}

@@ -1,0 +1,132 @@
+//! Adding covariance: P ← c·P and P ← P + c·x·xᵀ. P can only grow, and is watched for overflow.
+
+use super::Factor;
+use crate::{Error, Memory, Real};
+use forgetting_kernels::kernel::{functions, layout};
+
+impl<M: Memory> Factor<M> {
+    /// P ← `growth`·P with `growth` ≥ 1. O(n).
+    ///
+    /// # Errors
+    /// [`Error::Range`] when P would leave the range of the number type; P is as it was.
+    #[inline]
+    pub fn scale(&mut self, growth: M::Real) -> Result<(), Error> {
+        self.reserve(growth, M::Real::ZERO)?;
+        for d in self.diagonal.as_mut() {
+            *d *= growth;
+        }
+        Ok(())
+    }
+
+    /// P ← P·`trace`/tr(P), for a trace below [`Real::CEILING`]. O(n²).
+    ///
+    /// Elements of D that would fall below [`Real::FLOOR`] stay there.
+    pub fn hold_trace(&mut self, trace: M::Real) {
+        let before = self.trace();
+        for j in 0..self.parameters() {
+            self.put_diagonal(j, self.diagonal.as_ref()[j] / before * trace);
+        }
+        self.tighten();
+    }
+
+    /// P ← P + c·x·xᵀ with c ≥ 0 for n numbers `x`, which it uses up. O(n²).
+    ///
+    /// Call [`Factor::reserve`] first, for all that one sample adds.
+    #[inline]
+    pub fn add_covariance(&mut self, x: &mut [M::Real], c: M::Real) {
+        functions::agee_turner(self.columns.as_mut(), self.diagonal.as_mut(), x, c);
+    }
+
+    /// P ← P + diag(`variances`), each ≥ 0. O(n³): one dyad per element that is not 0.
+    ///
+    /// Call [`Factor::reserve`] first.
+    pub fn add_diagonal(&mut self, variances: &[M::Real], work: &mut [M::Real]) {
+        for (i, &variance) in variances.iter().enumerate() {
+            if variance > M::Real::ZERO {
+                work.fill(M::Real::ZERO);
+                work[i] = M::Real::ONE;
+                self.add_covariance(work, variance);
+            }
+        }
+    }
+
+    /// P ← S·P·S with S = diag(`scale`), each > 0: U ← S U S⁻¹, D ← S D S. O(n²).
+    ///
+    /// Call [`Factor::reserve`] with the largest squared scale first.
+    pub fn scale_each(&mut self, scale: &[M::Real]) {
+        for (j, &s) in scale.iter().enumerate() {
+            for (i, &t) in scale[..j].iter().enumerate() {
+                let u = &mut self.columns.as_mut()[layout::place::<M::Real>(i, j)];
+                *u = *u * t / s;
+            }
+            self.put_diagonal(j, self.diagonal.as_ref()[j] * s * s);
+        }
+    }
+
+    /// Makes room for P to become at most `growth`·P plus a matrix of trace `added`.
+    ///
+    /// The bound on P's trace costs O(1) to keep; only when it nears the limit is the trace
+    /// itself computed.
+    ///
+    /// # Errors
+    /// [`Error::Range`] when the trace would exceed [`Real::CEILING`]; P is as it was.
+    #[inline]
+    pub fn reserve(&mut self, growth: M::Real, added: M::Real) -> Result<(), Error> {
+        let before = self.trace_bound;
+        let mut bound = before * growth + added;
+        if !(bound < M::Real::CEILING) {
+            self.tighten();
+            bound = self.trace_bound * growth + added;
+        }
+        if bound < M::Real::CEILING {
+            self.trace_bound = bound;
+            return Ok(());
+        }
+        self.trace_bound = before;
+        Err(Error::Range {
+            parameter: "covariance (its trace)",
+            value: bound.to_f64(),
+            limit: M::Real::CEILING.to_f64(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Factor;
+    use crate::{Dynamic, Kernels};
+    use alloc::vec;
+    use forgetting_kernels::kernel::layout::place;
+
+    /// The trace of P grows by that of what is added, also where D of a long column grows to
+    /// many times what it was.
+    fn adds_what_it_is_given<T: Kernels>(n: usize, long: f64) {
+        let memory = Dynamic::<T>::new(n, 1, 1).unwrap();
+        let (one, long) = (T::ONE, T::from_f64(long));
+        for j in 0..n {
+            let mut factor = Factor::scalar(memory, one).unwrap();
+            // column j is `long`, and D_j so small that it weighs as much as any other
+            factor.diagonal.as_mut()[j] = one / (long * long);
+            for i in 0..j {
+                let sign = if i % 2 == 0 { one } else { -one };
+                factor.columns.as_mut()[place::<T>(i, j)] = sign * long;
+            }
+            let before = factor.trace();
+            let step = T::from_f64(1e-3);
+            factor.add_diagonal(&vec![step; n], &mut vec![T::ZERO; n]);
+            let expected = before + step * T::from_f64(n as f64);
+            let error = (factor.trace() / expected - one).abs();
+            assert!(error < T::EPSILON * T::from_f64(100.0), "{n} {j}: {error:?}");
+            assert!(factor.is_sound(), "{n} {j}: {factor:?}");
+        }
+    }
+
+    #[test]
+    fn a_long_column_adds_no_rounding() {
+        for n in [2, 3, 8, 9, 12, 16, 17, 40] {
+            adds_what_it_is_given::<f64>(n, 1e60);
+            adds_what_it_is_given::<f64>(n, 1e3);
+            adds_what_it_is_given::<f32>(n, 1e8);
+        }
+    }
+}

@@ -1,0 +1,236 @@
+//! The covariance P as U D Uᵀ: U unit upper triangular, D diagonal and positive.
+//!
+//! Nothing here subtracts from P. Each operation scales it, adds covariance, adds information,
+//! transforms it by congruence or replaces it, and keeps every element of D at or above
+//! [`Real::FLOOR`]: P stays positive definite whatever is asked of it.
+
+mod blocks;
+pub(crate) mod dense;
+mod grow;
+mod measure;
+mod prior;
+pub mod spectrum;
+
+pub use prior::Prior;
+
+use crate::state::Visitor;
+use crate::{Error, Memory, Real};
+use core::cmp::Ordering;
+use forgetting_kernels::kernel::functions;
+use forgetting_kernels::kernel::layout;
+use forgetting_kernels::kernel::variances::Variances;
+use forgetting_kernels::Kernels;
+
+/// P = U D Uᵀ, n x n and positive definite.
+#[derive(Clone, Debug)]
+pub struct Factor<M: Memory> {
+    memory: M,
+    /// the columns of U, in tiles; see [`layout::place`]
+    columns: M::Packed,
+    diagonal: M::Vector,
+    /// at least the trace of P; kept in O(1), tightened when it matters
+    trace_bound: M::Real,
+}
+
+impl<M: Memory> Factor<M> {
+    /// P = `variance`·I.
+    ///
+    /// # Errors
+    /// [`Error::Value`] unless `variance` is positive and in range.
+    pub fn scalar(memory: M, variance: M::Real) -> Result<Self, Error> {
+        let mut diagonal = memory.vector();
+        diagonal.as_mut().fill(variance);
+        Self::diagonal(memory, diagonal.as_ref())
+    }
+
+    /// P = diag(`variances`), n numbers.
+    ///
+    /// # Errors
+    /// [`Error::Length`], or [`Error::Value`] unless every variance is positive and in range.
+    pub fn diagonal(memory: M, variances: &[M::Real]) -> Result<Self, Error> {
+        const NAME: &str = "initial_covariance";
+        Error::check_length(NAME, variances.len(), memory.parameters())?;
+        for (index, &variance) in variances.iter().enumerate() {
+            if !(variance >= M::Real::FLOOR && variance <= M::Real::CEILING) {
+                return Err(Error::Value {
+                    parameter: NAME,
+                    index: Some(index),
+                    value: variance.to_f64(),
+                    allowed: "positive and finite",
+                });
+            }
+        }
+        Ok(Self::of(memory, |i| variances[i]))
+    }
+
+    /// P diagonal with these elements, each within [floor, ceiling].
+    pub(crate) fn of(memory: M, variance: impl Fn(usize) -> M::Real) -> Self {
+        let mut diagonal = memory.vector();
+        for (i, d) in diagonal.as_mut().iter_mut().enumerate() {
+            *d = variance(i);
+        }
+        let columns = memory.packed();
+        let mut factor = Self { memory, columns, diagonal, trace_bound: M::Real::ZERO };
+        factor.tighten();
+        factor
+    }
+
+    /// Whether U is triangular, and D and P are within range: whether this is a positive definite P.
+    /// O(n²).
+    pub fn is_sound(&self) -> bool {
+        let in_range = |d: &M::Real| *d >= M::Real::FLOOR && *d <= M::Real::CEILING;
+        let n = M::Real::from_f64(self.parameters() as f64);
+        self.diagonal.as_ref().iter().all(in_range)
+            && self.trace() <= n * M::Real::CEILING
+            && layout::is_unit_triangular(self.columns.as_ref(), self.parameters())
+            && self.trace_bound.is_finite()
+    }
+
+    /// Makes the bound of P's trace one, if it is far from it.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn check_bound(&mut self) {
+        // half of it, for rounding
+        if !(self.trace_bound >= M::Real::from_f64(0.5) * self.trace()) {
+            self.tighten();
+        }
+    }
+
+    /// n
+    #[inline(always)]
+    pub fn parameters(&self) -> usize {
+        self.memory.parameters()
+    }
+
+    /// The sizes this factor was made for.
+    #[inline(always)]
+    pub fn memory(&self) -> M {
+        self.memory
+    }
+
+    /// D, n positive numbers.
+    #[inline(always)]
+    pub fn diagonal_elements(&self) -> &[M::Real] {
+        self.diagonal.as_ref()
+    }
+
+    /// The columns of U as the kernels take them.
+    #[inline(always)]
+    pub fn packed_columns(&self) -> &[M::Real] {
+        &self.columns.as_ref()[..layout::length::<M::Real>(self.parameters())]
+    }
+
+    /// The largest element of D: at most the largest eigenvalue of P, and of its order when
+    /// one direction dominates.
+    #[inline(always)]
+    pub fn largest(&self) -> M::Real {
+        self.diagonal.as_ref().iter().fold(M::Real::ZERO, |largest, &d| largest.max(d))
+    }
+
+    /// Whether an element of D is larger than `limit`.
+    #[inline(always)]
+    pub(crate) fn exceeds(&self, limit: M::Real) -> bool {
+        // without a branch in the loop
+        self.diagonal.as_ref().iter().fold(false, |any, &d| any | (d > limit))
+    }
+
+    /// The smallest element of D: at least the smallest eigenvalue of P.
+    #[inline(always)]
+    pub fn smallest(&self) -> M::Real {
+        self.diagonal.as_ref().iter().fold(M::Real::CEILING, |smallest, &d| smallest.min(d))
+    }
+
+    /// Copies column j of U above the diagonal to `copy`, j numbers or more.
+    pub fn get_column(&self, j: usize, copy: &mut [M::Real]) {
+        layout::get_column(self.columns.as_ref(), j, copy);
+    }
+
+    /// The element of U at row i and column j.
+    #[inline]
+    pub fn unit(&self, i: usize, j: usize) -> M::Real {
+        match i.cmp(&j) {
+            Ordering::Less => self.columns.as_ref()[layout::place::<M::Real>(i, j)],
+            Ordering::Equal => M::Real::ONE,
+            Ordering::Greater => M::Real::ZERO,
+        }
+    }
+
+    /// The trace of P, O(n²).
+    pub fn trace(&self) -> M::Real {
+        let diagonal = self.diagonal.as_ref();
+        (0..self.parameters()).fold(M::Real::ZERO, |trace, j| {
+            let column = layout::column(self.columns.as_ref(), j);
+            trace + diagonal[j] * column.fold(M::Real::ONE, |sum, u| sum + functions::dot(u, u))
+        })
+    }
+
+    /// P as n x n numbers, written to `dense` (of n² elements, else left alone).
+    pub fn reconstruct(&self, dense: &mut [M::Real]) {
+        let n = self.parameters();
+        if dense.len() != n * n {
+            return;
+        }
+        for row in 0..n {
+            for column in row..n {
+                let element = self.element(row, column);
+                dense[row * n + column] = element;
+                dense[column * n + row] = element;
+            }
+        }
+    }
+
+    /// P's element at `row` ≤ `column`: Σ_k U_row,k D_k U_column,k.
+    fn element(&self, row: usize, column: usize) -> M::Real {
+        (column..self.parameters()).fold(M::Real::ZERO, |sum, k| {
+            sum + self.unit(row, k) * self.diagonal.as_ref()[k] * self.unit(column, k)
+        })
+    }
+
+    /// The diagonal of P, written to `variances` (n elements), O(n²).
+    pub fn variances(&self, variances: &mut [M::Real]) {
+        let (columns, diagonal) = (self.columns.as_ref(), self.diagonal.as_ref());
+        M::Real::variances(Variances { columns, diagonal, variances });
+    }
+
+    /// D_j ← `d`, or the floor where that is below it.
+    ///
+    /// A column of U may be as long as D is small. At the floor it becomes √(d/floor) of what it was,
+    /// so that it adds to P no more than it did: lifting D alone would add the floor times the
+    /// square of its length.
+    pub(crate) fn put_diagonal(&mut self, j: usize, d: M::Real) {
+        let floor = M::Real::FLOOR;
+        self.diagonal.as_mut()[j] = d.max(floor);
+        if d < floor {
+            let share = (d / floor).sqrt();
+            for i in 0..j {
+                self.columns.as_mut()[layout::place::<M::Real>(i, j)] *= share;
+            }
+        }
+    }
+
+    /// By how much the trace may grow after room was reserved for P/λ.
+    pub(crate) fn room(&self, lambda: M::Real) -> M::Real {
+        (M::Real::ONE - lambda) * self.trace_bound
+    }
+
+    /// Replaces the trace's bound by the trace itself.
+    pub(crate) fn tighten(&mut self) {
+        self.trace_bound = self.trace();
+    }
+
+    /// Visits every number of the state, to save or restore it.
+    pub fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
+        visit_columns(self.columns.as_mut(), self.memory.parameters(), visitor);
+        visitor.reals(self.diagonal.as_mut());
+        visitor.reals(core::slice::from_mut(&mut self.trace_bound));
+    }
+}
+
+/// Shows the numbers of U above the diagonal, column by column.
+fn visit_columns<T: Kernels>(columns: &mut [T], n: usize, visitor: &mut dyn Visitor<T>) {
+    for j in 0..n {
+        for i in (0..j).step_by(T::ROWS) {
+            let start = layout::place::<T>(i, j);
+            visitor.reals(&mut columns[start..start + T::ROWS.min(j - i)]);
+        }
+    }
+}
