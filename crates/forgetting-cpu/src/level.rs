@@ -103,13 +103,7 @@ impl<T: Vectors> Dispatch<T> for Machine {
 
 // each once for all places that call it
 
-#[cfg(all(target_arch = "x86_64", feature = "portable"))]
-#[inline(never)]
-fn run_baseline<T: Vectors, K: Kernel<T>>(kernel: K) -> K::Output {
-    kernel.run::<T::Lanes, 2>()
-}
-
-#[cfg(all(target_arch = "x86_64", not(feature = "portable")))]
+#[cfg(target_arch = "x86_64")]
 #[cold]
 #[inline(never)]
 fn run_baseline<T: Vectors, K: Kernel<T>>(_: K) -> K::Output {

@@ -3,8 +3,8 @@
 //! [`Fused<f64>`] and [`Fused<f32>`] are `f64` and `f32` whose `mul_add` rounds once, as the
 //! fused multiply-add of the hardware does. The loops over many numbers run with AVX-512, or
 //! AVX2 and FMA, or NEON, found out once at the start: [`level`]. Their results are the same bits
-//! on all of these; on a machine without fused multiply-add they would be too, but slow: use plain
-//! `f64` and `f32` there.
+//! on all of these. A machine without fused multiply-add cannot run them: use plain `f64` and `f32`
+//! there.
 
 mod fused;
 mod level;
@@ -12,4 +12,13 @@ mod level;
 mod x86;
 
 pub use fused::Fused;
+// for the macros
+#[doc(hidden)]
+pub use bytemuck::TransparentWrapper;
+#[doc(hidden)]
+pub use forgetting_kernels::compile_kernels;
+#[doc(hidden)]
+pub use forgetting_kernels::number::vector::Lanes;
+#[doc(hidden)]
+pub use forgetting_kernels::number::{copy_some, Real};
 pub use level::{level, Level, VARIABLE};
