@@ -77,14 +77,17 @@ def show(found: Identification, written: list[Path], as_json: bool) -> None:
 def write(
     found: Identification, report: Path | None, estimates: Path | None, plot: Path | None
 ) -> list[Path]:
-    """Write what was asked for."""
-    for path, save in (
-        (report, found.save_report),
-        (estimates, found.save_estimates),
-        (plot, found.save_plot),
-    ):
-        if path is not None:
-            save(path)
+    """Write what was asked for; pages and pictures are loaded only then."""
+    if report is not None:
+        from forgetting.report import save
+
+        save(found, report)
+    if estimates is not None:
+        found.save_estimates(estimates)
+    if plot is not None:
+        from forgetting.plot import save_overview
+
+        save_overview(found, plot)
     return [path for path in (report, estimates, plot) if path is not None]
 
 

@@ -40,6 +40,14 @@ class Rider:
     drag_area: Estimate
 
 
+@dataclass(frozen=True)
+class Result:
+    """One rule's identification and the physics it implies."""
+
+    found: Identification
+    rider: Rider
+
+
 def air_density(altitude: float) -> float:
     """Density of the standard atmosphere (ISO 2533) at an altitude in m, kg/m³.
 

@@ -6,7 +6,7 @@ from markupsafe import Markup
 from matplotlib import pyplot as plt
 
 from forgetting import plot
-from forgetting.demo.windup import windup
+from forgetting.demo.windup_picture import windup
 from forgetting.plot.style import BLUE, FAINT, GREEN, VERMILLION, legend_above
 from forgetting.plot.timeline import label_time, timeline
 from forgetting.record import Identification
