@@ -150,8 +150,8 @@ def notes() -> Block:
         "do not drift, and does not cover a wrong model or errors correlated in time. A sample "
         "with a missing value, or with a lag across a gap (a step in time above 1.5 median steps), "
         "is skipped; a sample in the dead zone carries less information than the rule's threshold. "
-        "Excited: a direction of which the samples in the rule's memory tell at least 1 % as much "
-        "as the record does on the average. Windup: the variance of a direction grew to more than "
-        "ten times what it was when data last told of it, and none do now.",
+        "Excited: a direction about which the samples in the rule's memory inform at least 1 % as "
+        "much as the record does on average. Windup: the variance of a direction grew to more than "
+        "ten times what it was when data last informed about it, and none do now.",
         folded=True,
     )
