@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -12,8 +12,10 @@ from forgetting.cli import options
 from forgetting.cli.progress import progress_bar
 from forgetting.cli.rulebook import make_gate, make_rule
 from forgetting.cli.tables import print_identification, print_written
-from forgetting.record.errors import RecordError
-from forgetting.record.identification import Identification
+from forgetting.words.errors import RecordError
+
+if TYPE_CHECKING:
+    from forgetting.record import Identification
 
 
 def identify(

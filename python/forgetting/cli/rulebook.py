@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from typing import Any
 
 import forgetting as fg
-from forgetting.record.columns import suggestion
-from forgetting.record.errors import RecordError
+from forgetting.words.errors import RecordError
+from forgetting.words.suggestion import suggestion
 
 
 def make_rule(

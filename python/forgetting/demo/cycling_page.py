@@ -8,9 +8,9 @@ from matplotlib import pyplot as plt
 from forgetting import plot
 from forgetting.demo.physics import Estimate, Result, air_density
 from forgetting.plot.style import BLUE, GREEN, VERMILLION
-from forgetting.record.rounding import brief, with_error
 from forgetting.report.page import Block, Figure, Page, Table
 from forgetting.report.svg import inline
+from forgetting.words.rounding import brief, with_error
 
 COLOURS = {"none": GREEN, "exponential": VERMILLION, "subspace": BLUE}
 AXES = ("m (kg)", "Crr · m (kg)", "k = ½ ρ CdA (kg/m)")

@@ -10,9 +10,9 @@ from forgetting.demo.windup_picture import windup
 from forgetting.plot.style import BLUE, FAINT, GREEN, VERMILLION, legend_above
 from forgetting.plot.timeline import label_time, timeline
 from forgetting.record import Identification
-from forgetting.record.rounding import brief
 from forgetting.report.page import Block, Figure, Page, Table
 from forgetting.report.svg import inline
+from forgetting.words.rounding import brief
 
 DAY = 96
 """Samples in a day."""

@@ -5,9 +5,9 @@ pandas reads the files, because the formula language (formulaic) needs pandas fr
 pyarrow serves Parquet. Both come with ``pip install 'forgetting[cli]'``.
 """
 
-from forgetting.record.errors import RecordError
 from forgetting.record.identification import Identification
 from forgetting.record.identify import identify
 from forgetting.record.read import Record, read
+from forgetting.words.errors import RecordError
 
 __all__ = ["Identification", "Record", "RecordError", "identify", "read"]

@@ -13,7 +13,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from forgetting.record.columns import resolve
-from forgetting.record.errors import RecordError
+from forgetting.words.errors import RecordError
 
 TIME_NAME = re.compile(r"(time|timestamp|date|datetime|date_time)([ _.\[(].*)?$", re.IGNORECASE)
 GAP = 1.5

@@ -10,9 +10,9 @@ import numpy as np
 from forgetting.models.lags import Array, names, regressors
 from forgetting.models.orders import Orders
 from forgetting.record.columns import numbers
-from forgetting.record.errors import RecordError
 from forgetting.record.read import Record
 from forgetting.record.samples import Samples
+from forgetting.words.errors import RecordError
 
 
 def dynamics(

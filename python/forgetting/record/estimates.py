@@ -10,9 +10,9 @@ import pandas as pd
 from numpy.typing import NDArray
 
 import forgetting as fg
-from forgetting.record.errors import RecordError
 from forgetting.record.samples import Samples
 from forgetting.record.trace import Trace
+from forgetting.words.errors import RecordError
 
 Array = NDArray[np.float64]
 

@@ -12,13 +12,13 @@ from numpy.typing import ArrayLike
 
 import forgetting as fg
 from forgetting.record.dynamics import dynamics
-from forgetting.record.errors import RecordError
 from forgetting.record.identification import Identification
 from forgetting.record.read import Record, read
 from forgetting.record.samples import Samples
 from forgetting.record.scores import score
 from forgetting.record.trace import Progress, errors_without_forgetting, run
 from forgetting.record.verdicts import verdicts
+from forgetting.words.errors import RecordError
 
 
 def identify(

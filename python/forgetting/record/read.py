@@ -10,7 +10,7 @@ from typing import Any
 import pandas as pd
 
 from forgetting.record.clock import Clock, find_clock
-from forgetting.record.errors import RecordError
+from forgetting.words.errors import RecordError
 
 SEPARATORS = ",;\t"
 PARQUET = {".parquet", ".pq"}

@@ -17,9 +17,9 @@ from formulaic.parser.types import Factor
 from formulaic.transforms import TRANSFORMS
 
 from forgetting.record.columns import numbers, resolve
-from forgetting.record.errors import RecordError
 from forgetting.record.read import Record, first_line
 from forgetting.record.samples import Samples
+from forgetting.words.errors import RecordError
 
 ANSI = re.compile(r"\x1b\[[0-9;]*m|[⧛⧚]")
 CATEGORICAL = re.compile(r"C\s*\(")

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from forgetting.record.clock import Clock
-from forgetting.record.errors import RecordError
+from forgetting.words.errors import RecordError
 
 Array = NDArray[np.float64]
 

@@ -9,10 +9,10 @@ from matplotlib import pyplot as plt
 
 from forgetting import plot
 from forgetting.record.identification import Identification
-from forgetting.record.rounding import brief, with_error
 from forgetting.report.page import Block, Figure, Page, Table, write
 from forgetting.report.svg import inline
 from forgetting.report.trust import trust
+from forgetting.words.rounding import brief, with_error
 
 DRAWN = 24
 """Parameters drawn per output; the table and the estimates file have them all."""
