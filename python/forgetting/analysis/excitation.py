@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -59,8 +60,8 @@ class Excitation:
         ‖φ̄_k u_i‖: what sample k says along each direction (the norm of col_i(ψ_k),
         Goel et al. eq. (55), here along fixed directions; `information_content` has
         the moving ones).
-    spectrum : Spectrum
-        Power of each regressor over frequency.
+    phibar : (T, rows, n)
+        The weighted regressors.
     """
 
     window: int
@@ -74,7 +75,12 @@ class Excitation:
     directions: Array = field(repr=False)
     total: Array = field(repr=False)
     content: Array = field(repr=False)
-    spectrum: Spectrum = field(repr=False)
+    phibar: Array = field(repr=False)
+
+    @cached_property
+    def spectrum(self) -> Spectrum:
+        """Power of each regressor over frequency; needs SciPy."""
+        return spectrum(self.phibar)
 
     @property
     def alpha(self) -> float:
@@ -194,7 +200,7 @@ def excitation(
         directions=directions,
         total=np.maximum(total[::-1], 0.0),
         content=np.linalg.norm(phibar @ directions, axis=1),
-        spectrum=spectrum(phibar),
+        phibar=phibar,
     )
 
 
