@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import pandas as pd
 from numpy.typing import ArrayLike
 
 import forgetting as fg
@@ -20,9 +19,12 @@ from forgetting.record.trace import Progress, errors_without_forgetting, run
 from forgetting.record.verdicts import verdicts
 from forgetting.words.errors import RecordError
 
+if TYPE_CHECKING:
+    from narwhals.typing import IntoDataFrame
+
 
 def identify(
-    record: str | Path | pd.DataFrame | Record,
+    record: str | Path | IntoDataFrame | Record,
     *,
     formula: str | None = None,
     output: str | Sequence[str] = (),
@@ -39,7 +41,7 @@ def identify(
 
     Parameters
     ----------
-    record : path, DataFrame or Record
+    record : path, data frame or Record
         See `forgetting.record.read`.
     formula : str, optional
         A regression such as ``"power ~ 0 + sun + sun:warmth"``; ``lag(x, k)`` is x, k rows ago.

@@ -16,7 +16,8 @@ from formulaic.transforms import TRANSFORMS
 from formulaic.utils.variables import Variable, get_required_variables
 
 from forgetting.record.columns import numbers, resolve
-from forgetting.record.read import Record, first_line
+from forgetting.record.files import first_line
+from forgetting.record.read import Record
 from forgetting.record.samples import Samples
 from forgetting.words.errors import RecordError
 
