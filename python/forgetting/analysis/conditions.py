@@ -44,8 +44,8 @@ class Condition:
         "A1" ... "A8".
     statement : str
     verdict : {"holds", "fails", "not decidable"}
-        "holds" is said of the samples in the record. For A2 and A3, which any finite
-        record meets with some constant, it also says that the constant does not drift.
+        "holds" is about the samples in the record. For A2 and A3, which any finite
+        record meets with some constant, it also means that the constant does not drift.
     constants : dict
         The constants found, by name.
     sample : int or None
@@ -64,7 +64,7 @@ class Condition:
     trend: Trend | None = None
 
     def __str__(self) -> str:
-        """One line, as a person would say it."""
+        """The condition in one line."""
         at = "" if self.sample is None else f" at sample {self.sample}"
         return f"{self.name} ({self.statement}) {self.verdict}{at}: {self.reason}"
 

@@ -13,15 +13,15 @@ every proper rule is the Kalman filter of a random walk with steps of covariance
 * directional, variable-direction and subspace forgetting: the parameters are supposed to
   move only along what the sample excites; elsewhere P is what it was at the last
   excitation, which is honest only if the parameters stood still there meanwhile;
-* resetting: after a reset P is the matrix the user declared, not what the data know; it is
+* resetting: after a reset P is the matrix that the user declared, whatever the data; it is
   meant to be larger than the error, and intervals are then wide.
 
 For parameters that are fixed the covariance C of the error follows from the gains alone,
 
     C_{k+1} = M_k C_k M_kᵀ + G_k G_kᵀ,   G_k = P_{k+1} φ̄_kᵀ,   M_k = I - G_k φ̄_k,   C_0 = P_0
 
-and C <= P for every proper rule. Both readings are returned; the coverage on the record
-tells which of them, if any, the record supports.
+and C <= P for every proper rule. Both readings are returned; their coverage shows
+which of them, if any, the record supports.
 """
 
 from __future__ import annotations
@@ -150,7 +150,7 @@ def confidence(
 
     Notes
     -----
-    The intervals are Gaussian. The module says what P means under each rule.
+    The intervals are Gaussian. What P means under each rule stands at the head of this module.
 
     Examples
     --------

@@ -72,7 +72,7 @@ def memory(trajectory: Trajectory) -> float:
 
 
 def proper(trajectory: Trajectory) -> Finding:
-    """A1, told from rounding: a shortfall that the numbers cannot resolve decides nothing."""
+    """A1; not decidable where rounding is larger than the shortfall would be."""
     root, inverse = square_root(np.nan_to_num(trajectory.before), trajectory.precision)
     share = _retained(trajectory, inverse)
     resolution = _resolution(trajectory, root, inverse)
@@ -130,8 +130,8 @@ def _bounded(name: str, bound: float, drift: Trend, *, upwards: bool) -> Finding
         change = f"it {word} by a factor {drift.factor:.3g} over the second half of the record"
         reason = f"{name} = {bound:.4g} is only where the record ends: {change}"
         return "not decidable", found, None, reason, drift
-    known = "no drift" if drift.known else "too short to tell a drift"
-    return "holds", found, None, f"{name} = {bound:.4g} over the record, {known}", drift
+    words = "no drift" if drift.decidable else "too short to tell a drift"
+    return "holds", found, None, f"{name} = {bound:.4g} over the record, {words}", drift
 
 
 def _extreme(matrices: Array, which: int) -> Array:

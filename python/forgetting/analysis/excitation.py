@@ -57,7 +57,7 @@ class Excitation:
     total : (n,)
         Information of the whole record along each direction.
     content : (T, n)
-        ‖φ̄_k u_i‖: what sample k says along each direction (the norm of col_i(ψ_k),
+        ‖φ̄_k u_i‖: content of sample k along each direction (the norm of col_i(ψ_k),
         Goel et al. eq. (55), here along fixed directions; `information_content` has
         the moving ones).
     phibar : (T, rows, n)
@@ -120,7 +120,7 @@ class Excitation:
 
     @property
     def silent_subspace(self) -> Array:
-        """Basis (n, n - r) of the directions the record says nothing about."""
+        """Basis (n, n - r) of the directions the record does not inform about."""
         return self.directions[:, self.rich :]
 
     def to_dict(self) -> dict[str, Any]:

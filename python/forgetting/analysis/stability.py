@@ -1,4 +1,4 @@
-"""Theorem 2 of Lai and Bernstein: what the conditions that hold say about the error.
+"""Theorem 2 of Lai and Bernstein: what follows for the error from the conditions that hold.
 
 The statements are about the error θ̃ without noise and with fixed parameters. The
 conditions are sufficient: where one fails the conclusion does not follow, which is not to

@@ -1,7 +1,7 @@
 """Does a bound drift? The trend of a positive series, with its significance.
 
-A finite record always has a largest and a smallest eigenvalue. What tells a bound from
-the end of a climb is whether the extremes keep moving. The second half of the record is
+A finite record always has a largest and a smallest eigenvalue. A bound differs from
+the end of a climb in that the extremes stop moving. The second half of the record is
 cut into blocks longer than the memory of the estimator where the record allows it, the
 extreme of each block is taken, and Kendall's rank test asks whether their order could be
 chance; the slope is Theil and Sen's median of all pairs.
@@ -54,19 +54,19 @@ class Trend:
     blocks: int
 
     @property
-    def known(self) -> bool:
+    def decidable(self) -> bool:
         """True when the record is long enough to tell."""
         return self.blocks >= FEWEST
 
     @property
     def rises(self) -> bool:
         """True when the series drifts upwards."""
-        return self.known and self.significance < LEVEL and self.factor > FACTOR
+        return self.decidable and self.significance < LEVEL and self.factor > FACTOR
 
     @property
     def falls(self) -> bool:
         """True when the series drifts downwards."""
-        return self.known and self.significance < LEVEL and self.factor < 1 / FACTOR
+        return self.decidable and self.significance < LEVEL and self.factor < 1 / FACTOR
 
     def to_dict(self) -> dict[str, Any]:
         """Return the fields, ready for JSON."""

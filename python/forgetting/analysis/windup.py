@@ -1,15 +1,15 @@
-"""Windup: P grows where nothing is learnt.
+"""Windup: P grows along directions that receive no information.
 
     A direction has wound up when its variance is more than ten times what it was when it
     last received information, it receives none now, and the rule sets it no bound.
 
 "Receives information" is measured against what P claims: with S the information of the
 last `window` samples and x a direction scaled to one standard deviation (P = Σ x xᵀ), the
-share μ = xᵀ S x says by how many noise variances the window could tell that the parameters
-moved by one standard deviation. μ < `share` is no information. The pairs (μ, x) are the
+share μ = xᵀ S x is the squared change of the predictions in the window, in noise variances, when
+the parameters move by x. μ < `share` is no information. The pairs (μ, x) are the
 eigenpairs of S in the metric of P, so none of this depends on the units of the parameters.
 
-The reference B keeps, for each direction, the variance at the last information. With x_E
+The reference B is, along each direction, the variance when it was last informed. With x_E
 the informed directions, x_Z the silent ones, y their functionals (yᵢᵀxⱼ = 1 if i = j, else
 0) and P' the covariance after the first sample of the window,
 
@@ -59,7 +59,7 @@ class Windup:
     direction : (n,) or None
         Unit vector that has wound up most.
     informed : int or None
-        Last sample that told anything along that direction; None if none ever did.
+        Last sample that informed about that direction; None if none did.
     samples : (E,) int
         Samples examined.
     path : (E,)
@@ -135,8 +135,7 @@ def windup(
     factor : float > 1
         Growth of the variance that is windup.
     share : float in (0, 1]
-        Share of its own variance a direction must be able to tell in a window to count as
-        informed.
+        A direction is informed where its μ in the window is at least this.
     ceiling : scalar, (n,) or (n, n), optional
         The bound that the rule sets, such as the covariance a resetting rule returns to;
         growth up to it is not windup.
@@ -186,7 +185,7 @@ def _memory(trajectory: Trajectory) -> int:
 
 
 def _finite(trajectory: Trajectory) -> int:
-    """Samples before the covariance is no longer a number; `conditions` says where that is."""
+    """Number of samples before the first covariance that is not finite."""
     fine = np.isfinite(trajectory.before) & np.isfinite(trajectory.after)
     lost = np.flatnonzero(~fine.all(axis=(1, 2)))
     if lost.size and lost[0] == 0:
@@ -207,13 +206,13 @@ def _follow(
         start = int(chosen[step]) - window + 1
         recent = trajectory.after[start] if start >= 0 else trajectory.before[0]
         fresh, turn = _clipped(y[~silent] @ recent @ y[~silent].T)
-        kept = x[:, ~silent] @ turn
+        informed = x[:, ~silent] @ turn
         held, turn = _clipped(y[silent] @ reference @ y[silent].T)
         spread, readings = x[:, silent] @ turn, turn.T @ y[silent]
         for value, move, reading in zip(held, spread.T, readings, strict=True):
             if 1 / value > path[step] and _above(reading, top):
                 path[step], directions[step] = 1 / value, move
-        reference = (kept * fresh) @ kept.T + (spread * held) @ spread.T
+        reference = (informed * fresh) @ informed.T + (spread * held) @ spread.T
     return path, directions
 
 
@@ -259,8 +258,10 @@ def _summary(
         growth = float(path[worst])
         return Windup(False, None, False, growth, None, None, samples, path, window, factor, share)
     x = directions[worst]
-    seen = np.linalg.norm(trajectory.phibar[: chosen[worst] + 1] @ x, axis=1) ** 2 >= share
-    informed = trajectory.first + int(np.flatnonzero(seen)[-1]) if seen.any() else None
+    informative = np.linalg.norm(trajectory.phibar[: chosen[worst] + 1] @ x, axis=1) ** 2 >= share
+    informed = (
+        trajectory.first + int(np.flatnonzero(informative)[-1]) if informative.any() else None
+    )
     return Windup(
         True,
         int(samples[found.argmax()]),

@@ -1,4 +1,4 @@
-"""From regression parameters to the quantities a cyclist knows, with propagated errors."""
+"""From regression parameters to mass, rolling resistance and drag, with propagated errors."""
 
 from __future__ import annotations
 

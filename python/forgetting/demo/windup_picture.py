@@ -1,4 +1,4 @@
-"""One picture of windup: what two rules know about a gain when nights bring no input."""
+"""One picture of windup: a gain and its standard error under two rules, nights without input."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What an estimator went through on a record: θ at every sample, P at chosen ones."""
+"""Estimates of an estimator on a record: θ after every sample, P after chosen ones."""
 
 from __future__ import annotations
 

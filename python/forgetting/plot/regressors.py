@@ -1,4 +1,4 @@
-"""What the regressors say: information in windows, along directions and over frequency."""
+"""Regressors: their information in windows and along directions, their power over frequency."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def excitation(found: Excitation, ax: Axes | None = None) -> Axes:
 def content(
     found: Excitation | Content, ax: Axes | None = None, names: Sequence[str] | None = None
 ) -> Axes:
-    """Draw what each sample says along each direction, on a logarithmic colour scale.
+    """Draw each sample's content along each direction, on a logarithmic colour scale.
 
     Directions go from most (bottom) to least informed (top); `names` labels them.
     """

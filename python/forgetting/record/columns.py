@@ -11,7 +11,7 @@ from forgetting.words.suggestion import suggestion
 
 
 def resolve(frame: pd.DataFrame, name: str, source: str) -> str:
-    """Return `name` when the table has it, else say what there is."""
+    """Return `name` when the table has it; the error otherwise lists the columns there are."""
     if name in frame.columns:
         return name
     among = suggestion([str(column) for column in frame.columns], name, "its columns are")

@@ -52,7 +52,7 @@ class Counts:
         return int((self.trace.gate == FROZEN).sum())
 
     def counts(self) -> dict[str, int]:
-        """All rows of the record, and how many of them met each fate."""
+        """Rows of the record, and how many were used or left out for each reason."""
         return {
             "rows": len(self.trace.skipped),
             "used": self.used,

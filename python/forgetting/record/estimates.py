@@ -20,7 +20,7 @@ SUFFIXES = (".parquet", ".csv")
 
 
 def table(samples: Samples, trace: Trace, prediction: Array, standard_error: Array) -> pd.DataFrame:
-    """One row per sample; columns say what they hold and of what: ``estimate:poa``.
+    """One row per sample; a column's name has the quantity and its owner: ``estimate:poa``.
 
     ``row`` counts from 1 below the header. With several outputs the estimate columns name both,
     ``estimate:V:I(k)``.

@@ -102,7 +102,7 @@ class Identification(Counts):
 
     @cached_property
     def excited(self) -> Excited:
-        """What the samples within the rule's memory tell, all along the record."""
+        """What the samples within the rule's memory excite, all along the record."""
         used = self.trace.skipped == USED
         forgotten = 1.0 - float(np.median(self.trace.forgetting_factor[used])) if used.any() else 0
         total, n = self.samples.phi.shape
