@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._core import Fleet, InvalidInput
+from .extras import extra
 from .health import EDGE
 
 #: Where a table keeps the state of a new stream, among the metadata of its schema.
@@ -76,7 +77,7 @@ def health_of(
 
 def to_arrow(fleet: Fleet) -> Any:
     """The streams as an Arrow table; see `Fleet.to_arrow`."""
-    pa = _pyarrow()
+    pa = extra("pyarrow", "a saved fleet")
     fresh, *states = fleet._states()
     schema = pa.schema(
         [pa.field("stream", pa.int64(), False), pa.field("state", pa.large_binary(), False)],
@@ -87,7 +88,7 @@ def to_arrow(fleet: Fleet) -> Any:
 
 def from_arrow(table: Any) -> Fleet:
     """The fleet of an Arrow table; see `Fleet.from_arrow`."""
-    pa = _pyarrow()
+    pa = extra("pyarrow", "a saved fleet")
     if not isinstance(table, pa.Table):
         raise InvalidInput(f"table is of type {type(table).__name__}, allowed: a pyarrow.Table")
     if "state" not in table.column_names:
@@ -97,13 +98,3 @@ def from_arrow(table: Any) -> Fleet:
         raise InvalidInput("the column state must hold the state of one stream or more, as bytes")
     fresh = (table.schema.metadata or {}).get(FRESH, states[0])
     return Fleet._of_states(fresh, states)
-
-
-def _pyarrow() -> Any:
-    try:
-        import pyarrow
-    except ImportError:
-        raise ImportError(
-            "fleets are saved with pyarrow: pip install 'forgetting[cli]' brings it"
-        ) from None
-    return pyarrow

@@ -49,7 +49,7 @@ class Health:
     since_informed : int or None
         Samples since then, to within one block of max(10, 2n, half the memory) samples.
     since_excited : (n,) ndarray of int or None
-        Samples since each parameter's regressor was last large enough to tell of it.
+        Samples since each parameter's regressor was last large enough to inform about it.
     noise_variance : float or None
         Running estimate of the variance of the whitened noise, weighted as the rule forgets.
     correlation : float or None

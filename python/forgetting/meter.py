@@ -15,7 +15,7 @@ class ExcitationMeter(InformationWindow):
     O(n**2) a sample. It subtracts the sample that leaves the window and is replaced every
     `window` samples by one that nothing was subtracted from, so that rounding cannot pile up;
     `alpha`, `beta` and `rank` take its eigenvalues when they are asked for, O(n**3), and an
-    eigenvalue that cannot be told from rounding is 0.
+    eigenvalue within rounding of 0 is 0.
 
     Parameters
     ----------
@@ -70,14 +70,14 @@ class ExcitationMeter(InformationWindow):
 
     @property
     def alpha(self) -> float:
-        """Smallest eigenvalue: the least that the window tells of any direction."""
+        """Smallest eigenvalue: the least information of the window along any direction."""
         return float(self._eigenvalues()[0])
 
     @property
     def beta(self) -> float:
-        """Largest eigenvalue: the most that the window tells of any direction."""
+        """Largest eigenvalue: the most information of the window along any direction."""
         return float(self._eigenvalues()[-1])
 
     def rank(self, threshold: float = 0.0) -> int:
-        """Count the directions of which the window tells more than `threshold` (phi**2)."""
+        """Count the directions with more information than `threshold` (in units of phi**2)."""
         return int((self._eigenvalues() > threshold).sum())

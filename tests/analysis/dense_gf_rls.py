@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from forgetting.analysis import Record
+from forgetting.analysis import Trajectory
 
 
 @dataclass
@@ -36,9 +36,9 @@ class Runs:
     theta: np.ndarray
     errors: np.ndarray
 
-    def record(self, run=0):
+    def trajectory(self, run=0):
         path = np.concatenate([self.before[run], self.after[run][-1:]])
-        return Record.from_arrays(self.phi[run], path, prior_covariance=self.prior[run])
+        return Trajectory.from_arrays(self.phi[run], path, prior_covariance=self.prior[run])
 
 
 def symmetric(A):

@@ -18,14 +18,14 @@ def factor_ud(P):
     return flipped / root[..., None, :], root**2
 
 
-def live_alarms(record, window, factor=10.0, share=0.1):
+def live_alarms(trajectory, window, factor=10.0, share=0.1):
     """Alarm (T,) of the cheap rule along a record of one row a sample."""
-    U, d_prior = factor_ud(record.prior)
-    _, d_after = factor_ud(record.after)
-    held = factor_ud(record.before[0])[1].copy()
-    alarm = np.zeros(record.samples, dtype=bool)
-    for k in range(record.samples):
-        told = (record.phibar[k] @ U[k]) ** 2
+    U, d_prior = factor_ud(trajectory.prior)
+    _, d_after = factor_ud(trajectory.after)
+    held = factor_ud(trajectory.before[0])[1].copy()
+    alarm = np.zeros(trajectory.samples, dtype=bool)
+    for k in range(trajectory.samples):
+        told = (trajectory.phibar[k] @ U[k]) ** 2
         informed = told.max(axis=0) * d_prior[k] >= share / window
         alarm[k] = (~informed & (d_after[k] > factor * held)).any()
         held = np.where(informed, d_after[k], np.minimum(held, d_after[k]))

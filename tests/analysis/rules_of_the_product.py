@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 import forgetting as fg
-from forgetting.analysis import Record
+from forgetting.analysis import Trajectory
 
 OUTPUTS = ("theta", "covariance", "prior_covariance", "skipped", "gate", "forgetting_factor")
 GAIN = 0.5
@@ -87,10 +87,10 @@ def follow(setting, phi, y, theta0=None, **options):
         **options,
     )
     run = est.run(phi, y, outputs=OUTPUTS)
-    record = Record.from_run(
+    trajectory = Trajectory.from_run(
         run, phi, gamma=_gamma(setting.rule, run, phi), initial_covariance=setting.start
     )
-    return run, record
+    return run, trajectory
 
 
 def _gamma(rule, run, phi):

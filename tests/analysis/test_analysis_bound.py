@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from forgetting.analysis import (
-    Record,
+    Trajectory,
     amplification,
     conditions,
     observed_decrease,
@@ -62,7 +62,7 @@ def test_corrected_bound_holds_in_every_run(shape):
         runs, truth, noise, blur, late = _disturbed(rng, rule, rows, n, window)
         for run in range(RUNS):
             found = conditions(
-                runs.record(run),
+                runs.trajectory(run),
                 window=window,
                 true_theta=truth[run],
                 measurement_noise=noise[run],
@@ -84,7 +84,7 @@ def test_bound_is_not_vacuous():
     y = truth.copy()
     P0 = np.full((1, 1), 0.1)
     runs = dense.simulate(dense.exponential(0.9), phi, y, P0)
-    found = conditions(runs.record(), window=1, true_theta=truth[0])
+    found = conditions(runs.trajectory(), window=1, true_theta=truth[0])
     bound = ultimate_bound(found, error=(runs.theta[:, 1:] - truth)[0])
     assert bound.observed == pytest.approx(0.9e-3 / 0.1, rel=1e-6)
     assert 1 < bound.looseness < 3
@@ -188,7 +188,7 @@ def test_a_run_that_meets_every_condition_exceeds_the_printed_bound():
             peak = max(peak, np.linalg.norm(x))
         peaks.append(peak)
 
-    known = conditions(Record.from_arrays(phi, path, prior_covariance=prior), window=1)
+    known = conditions(Trajectory.from_arrays(phi, path, prior_covariance=prior), window=1)
     assert known["A1"].verdict == known["A4"].verdict == "holds"
     assert known.constants["alpha"] == pytest.approx(ALPHA)
     assert known.constants["b"] == pytest.approx(1.0)
@@ -234,13 +234,13 @@ def test_shorter_products_do_not_decrease_by_c_n():
     """VDF in steady state on e1, e2 in turn: one factor has norm² 10 > 1/a - c_1."""
     phi = np.tile(np.eye(2)[:, None, :], (200, 1, 1))[None]
     runs = dense.simulate(dense.variable_direction(0.9, 1e-8), phi, None, np.eye(2))
-    record = runs.record()
-    after, one = record.after[-1], record.phibar[-1]
+    trajectory = runs.trajectory()
+    after, one = trajectory.after[-1], trajectory.phibar[-1]
     M = np.eye(2) - after @ one.T @ one
     size = np.linalg.norm(np.linalg.cholesky(np.linalg.inv(after)).T @ M, 2) ** 2
-    late = Record.from_arrays(
-        record.phibar[300:], np.concatenate([record.before[300:], record.after[-1:]]),
-        prior_covariance=record.prior[300:],
+    late = Trajectory.from_arrays(
+        trajectory.phibar[300:], np.concatenate([trajectory.before[300:], trajectory.after[-1:]]),
+        prior_covariance=trajectory.prior[300:],
     )  # fmt: skip
     known = conditions(late, window=2).constants
     c_1 = known["alpha"] / (1 + known["b"] * known["beta"])
@@ -254,7 +254,7 @@ def test_delta_is_not_bounded_by_n_minus_one():
     """φ = I, λ = 1/2, N = 3: N b β/(a α) - 1 = 1 < N - 1, but >= b/a - 1."""
     phi = np.tile(np.eye(2), (60, 1, 1))[None]
     runs = dense.simulate(dense.exponential(0.5), phi, None, 0.5 * np.eye(2))
-    known = conditions(runs.record(), window=3).constants
+    known = conditions(runs.trajectory(), window=3).constants
     value = 3 * known["b"] * known["beta"] / (known["a"] * known["alpha"]) - 1
     assert value == pytest.approx(1.0, abs=1e-9)
     assert value < 3 - 1 and value >= known["b"] / known["a"] - 1 - 1e-12
@@ -266,19 +266,19 @@ def test_decrease_is_guaranteed_and_loose():
     for rows, n, window in SHAPES:
         for rule in _rules(rows, n, rng).values():
             phi = dense.exciting(rng, 1, SAMPLES, rows, n, window)
-            record = dense.simulate(rule, phi, None, np.eye(n)).record()
-            found = stability(conditions(record, window=window))
+            trajectory = dense.simulate(rule, phi, None, np.eye(n)).trajectory()
+            found = stability(conditions(trajectory, window=window))
             if found.decrease is None:
                 continue
             assert found.observed.min() >= found.decrease > 0
-            assert observed_decrease(record, window).min() == found.observed.min()
+            assert observed_decrease(trajectory, window).min() == found.observed.min()
 
 
 def test_unmet_conditions_leave_no_bound():
     phi = np.zeros((1, 100, 1, 2))
     phi[..., 0] = 1.0
-    record = dense.simulate(dense.exponential(0.95), phi, None, np.eye(2)).record()
-    bound = ultimate_bound(conditions(record), parameter_drift=0.1)
+    trajectory = dense.simulate(dense.exponential(0.95), phi, None, np.eye(2)).trajectory()
+    bound = ultimate_bound(conditions(trajectory), parameter_drift=0.1)
     assert bound.bound == np.inf and "A2" in bound.reason and "A4" in bound.reason
     assert bound.to_dict()["bound"] is None
 

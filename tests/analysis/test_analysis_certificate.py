@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import forgetting as fg
-from forgetting.analysis import Record, certify, windup
+from forgetting.analysis import Trajectory, certify, windup
 
 OUTPUTS = ("error", "covariance", "skipped", "forgetting_factor")
 
@@ -40,7 +40,7 @@ def _plain_update(samples, factor):
 
 def test_a_covariance_that_overflows_is_told_sample_by_sample():
     phi, path, prior = _plain_update(1500, 0.5)
-    found = certify(Record.from_arrays(phi, path, prior_covariance=prior))
+    found = certify(Trajectory.from_arrays(phi, path, prior_covariance=prior))
     lost = int(np.argmin(np.isfinite(prior).all(axis=(1, 2))))
     assert found.conditions["A2"].verdict == "fails"
     assert found.conditions["A2"].sample in {lost - 1, lost}  # the eigenvalue overflows first
@@ -49,7 +49,7 @@ def test_a_covariance_that_overflows_is_told_sample_by_sample():
     np.testing.assert_allclose(np.abs(found.windup.direction), [0.5**0.5] * 2)
     assert "does not follow (A1, A2, A3, A4 fail)" in str(found)
     with pytest.raises(fg.InvalidInput, match="covariance"):
-        windup(Record.from_arrays(phi, np.full_like(path, np.nan), prior_covariance=prior))
+        windup(Trajectory.from_arrays(phi, np.full_like(path, np.nan), prior_covariance=prior))
 
 
 def test_a_night_winds_up_exponential_forgetting_only(solar):

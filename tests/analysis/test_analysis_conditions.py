@@ -8,7 +8,7 @@ import pytest
 
 from forgetting import InvalidInput
 from forgetting.analysis import (
-    Record,
+    Trajectory,
     conditions,
     excitation,
     lyapunov,
@@ -32,10 +32,10 @@ def _brute(phi, path, prior, window):
     return a, b, alpha, beta, alpha / window / size
 
 
-def _compare(record, path, window):
-    found = conditions(record, window=window)
+def _compare(trajectory, path, window):
+    found = conditions(trajectory, window=window)
     known = found.constants
-    a, b, alpha, beta, c_N = _brute(record.phibar, path, record.prior, window)
+    a, b, alpha, beta, c_N = _brute(trajectory.phibar, path, trajectory.prior, window)
     assert known["a"] == pytest.approx(a, rel=1e-10)
     assert known["b"] == pytest.approx(b, rel=1e-12)
     assert known["alpha"] == pytest.approx(alpha, rel=1e-8, abs=1e-13 * beta * window)
@@ -51,44 +51,44 @@ def test_constants_on_random_records(rows, window):
     rng = np.random.default_rng(rows + window)
     phi = dense.exciting(rng, 1, 80, rows, 3, window)
     for rule in (dense.exponential(0.9), dense.random_walk(0.1 * np.eye(3))):
-        record = dense.simulate(rule, phi, None, 2 * np.eye(3)).record()
-        path = [*record.before, record.after[-1]]
-        found = _compare(record, path, window)
+        trajectory = dense.simulate(rule, phi, None, 2 * np.eye(3)).trajectory()
+        path = [*trajectory.before, trajectory.after[-1]]
+        found = _compare(trajectory, path, window)
         assert stability(found).decrease == pytest.approx(
-            _brute(record.phibar, path, record.prior, window)[-1], rel=1e-9
+            _brute(trajectory.phibar, path, trajectory.prior, window)[-1], rel=1e-9
         )
 
 
 def test_constants_on_measured_records(measured):
     phi = measured[0][:400]
     scale = np.abs(phi).max(axis=0)
-    record = dense.simulate(
+    trajectory = dense.simulate(
         dense.exponential(0.98), (phi / scale)[None, :, None, :], None, np.eye(phi.shape[1])
-    ).record()
-    _compare(record, [*record.before, record.after[-1]], 100)
+    ).trajectory()
+    _compare(trajectory, [*trajectory.before, trajectory.after[-1]], 100)
 
 
 @pytest.mark.parametrize("rule", ["exponential", "subspace"])
 def test_constants_on_the_papers_records(of_a_paper, rule):
     phi = of_a_paper[:200]
     made = {"exponential": dense.exponential(0.98), "subspace": dense.subspace(0.98, 1e-4)}[rule]
-    record = dense.simulate(made, phi[None], None, np.eye(phi.shape[-1])).record()
-    _compare(record, [*record.before, record.after[-1]], 50)
+    trajectory = dense.simulate(made, phi[None], None, np.eye(phi.shape[-1])).trajectory()
+    _compare(trajectory, [*trajectory.before, trajectory.after[-1]], 50)
 
 
 def test_observed_decrease_equals_the_products_written_out():
     rng = np.random.default_rng(2)
     phi = dense.exciting(rng, 1, 40, 1, 2, 4)
-    record = dense.simulate(dense.oblique_projection(0.9), phi, None, np.eye(2)).record()
+    trajectory = dense.simulate(dense.oblique_projection(0.9), phi, None, np.eye(2)).trajectory()
     expected = []
     for k in range(37):
         M = np.eye(2)
         for i in range(k, k + 4):
-            f = record.phibar[i]
-            M = (np.eye(2) - record.after[i] @ f.T @ f) @ M
-        last = np.linalg.inv(record.after[k + 3])
-        expected.append(np.linalg.eigvalsh(np.linalg.inv(record.before[k]) - M.T @ last @ M)[0])
-    np.testing.assert_allclose(observed_decrease(record, 4), expected, rtol=1e-9)
+            f = trajectory.phibar[i]
+            M = (np.eye(2) - trajectory.after[i] @ f.T @ f) @ M
+        last = np.linalg.inv(trajectory.after[k + 3])
+        expected.append(np.linalg.eigvalsh(np.linalg.inv(trajectory.before[k]) - M.T @ last @ M)[0])
+    np.testing.assert_allclose(observed_decrease(trajectory, 4), expected, rtol=1e-9)
 
 
 PROPER = {
@@ -135,7 +135,7 @@ def test_lyapunov_function_never_rises_without_noise(name, silent):
     for run in range(len(error)):
         V = _values(runs, error, run)
         assert (np.diff(V) <= 1e-9 * V[0]).all()
-        assert conditions(runs.record(run), window=40)["A1"].verdict == "holds"
+        assert conditions(runs.trajectory(run), window=40)["A1"].verdict == "holds"
 
 
 @pytest.mark.parametrize("name", IMPROPER)
@@ -145,7 +145,7 @@ def test_improper_rules_have_a_counterexample(name):
     for run in range(len(error)):
         V = _values(runs, error, run)
         rises.append(np.diff(V).max() / V[0])
-        verdicts.append(conditions(runs.record(run), window=40)["A1"])
+        verdicts.append(conditions(runs.trajectory(run), window=40)["A1"])
     worst = int(np.argmax(rises))
     assert rises[worst] > 1e-3
     assert verdicts[worst].verdict == "fails"
@@ -156,28 +156,30 @@ def test_improper_rules_have_a_counterexample(name):
 
 def test_cyclic_resetting_is_improper_inside_a_cycle_only():
     phi = np.zeros((1, 60, 1, 3))
-    record = dense.simulate(dense.cyclic(0.9, 1.0), phi, None, np.eye(3)).record()
-    assert conditions(record)["A1"].verdict == "fails"
-    cycle = Record.from_arrays(
+    trajectory = dense.simulate(dense.cyclic(0.9, 1.0), phi, None, np.eye(3)).trajectory()
+    assert conditions(trajectory)["A1"].verdict == "fails"
+    cycle = Trajectory.from_arrays(
         np.zeros((20, 1, 3)),
-        np.concatenate([record.before[::3], record.after[-1:]]),
-        prior_covariance=record.after[2::3],
+        np.concatenate([trajectory.before[::3], trajectory.after[-1:]]),
+        prior_covariance=trajectory.after[2::3],
     )
     assert conditions(cycle)["A1"].verdict == "holds"
 
 
 def test_exponential_resetting_is_improper_when_it_starts_below():
     phi = np.zeros((1, 60, 1, 2))
-    record = dense.simulate(dense.resetting(0.9, 4 * np.eye(2)), phi, None, np.eye(2)).record()
-    found = conditions(record)["A1"]
+    trajectory = dense.simulate(
+        dense.resetting(0.9, 4 * np.eye(2)), phi, None, np.eye(2)
+    ).trajectory()
+    found = conditions(trajectory)["A1"]
     assert (found.verdict, found.sample) == ("fails", 0)
 
 
 def test_windup_leaves_b_open_and_the_trend_is_the_forgetting_factor():
     phi = np.zeros((1, 400, 1, 2))
     phi[0, :, 0, 0] = np.random.default_rng(1).normal(size=400)
-    record = dense.simulate(dense.exponential(0.98), phi, None, np.eye(2)).record()
-    found = conditions(record)
+    trajectory = dense.simulate(dense.exponential(0.98), phi, None, np.eye(2)).trajectory()
+    found = conditions(trajectory)
     assert found["A2"].verdict == "not decidable"
     assert found["A2"].trend.slope == pytest.approx(-np.log(0.98), rel=1e-6)
     assert found["A4"].verdict == "fails" and found["A4"].sample == 0
@@ -191,7 +193,7 @@ def test_plain_least_squares_has_no_lower_bound_and_bounded_rules_have_both():
     phi = dense.exciting(rng, 1, 1000, 1, 2, 2)
     verdicts = {}
     for name, rule in {"none": dense.none(), "exponential": dense.exponential(0.95)}.items():
-        found = conditions(dense.simulate(rule, phi, None, np.eye(2)).record())
+        found = conditions(dense.simulate(rule, phi, None, np.eye(2)).trajectory())
         verdicts[name] = [found[c].verdict for c in ("A1", "A2", "A3", "A4")]
         outcome = stability(found)["globally uniformly exponentially stable"].outcome
         assert outcome == ("not decidable" if name == "none" else "follows")
@@ -217,7 +219,7 @@ def test_trend_is_exact_in_rank_and_slope():
     found = trend(np.exp(0.01 * np.arange(16.0)), memory=1e9)
     assert found.blocks == 8 and found.significance == pytest.approx(2 / 40320, rel=1e-12)
     assert found.slope == pytest.approx(0.01)
-    assert not trend(np.ones(5)).known
+    assert not trend(np.ones(5)).decidable
     constant = trend(np.ones(100))
     assert constant.significance == pytest.approx(1.0) and constant.slope == 0.0
 
@@ -227,11 +229,11 @@ def test_disturbances_are_measured_or_left_open():
     phi = rng.normal(size=(50, 2, 3))
     root = np.array([[2.0, 0.0], [1.0, 1.0]])
     gamma = root @ root.T
-    record = Record.from_arrays(phi, np.tile(0.01 * np.eye(3), (51, 1, 1)), gamma=gamma)
+    trajectory = Trajectory.from_arrays(phi, np.tile(0.01 * np.eye(3), (51, 1, 1)), gamma=gamma)
     truth = np.cumsum(rng.normal(size=(50, 3)), axis=0)
     noise, blur = rng.normal(size=(50, 2)), rng.normal(size=(50, 2, 3))
     known = conditions(
-        record, window=5, true_theta=truth, measurement_noise=noise, regressor_noise=blur
+        trajectory, window=5, true_theta=truth, measurement_noise=noise, regressor_noise=blur
     ).constants
     inverse = np.linalg.inv(gamma)
     assert known["parameter_drift"] == pytest.approx(
@@ -242,9 +244,9 @@ def test_disturbances_are_measured_or_left_open():
     assert known["regressor_noise"] == pytest.approx(
         max(np.linalg.eigvalsh(d.T @ inverse @ d)[-1] for d in blur)
     )
-    open_ = conditions(record, window=5)
+    open_ = conditions(trajectory, window=5)
     assert [open_[c].verdict for c in ("A5", "A6", "A7", "A8")] == ["not decidable"] * 4
-    assert conditions(record, true_theta=np.ones(3))["A5"].constants == {"parameter_drift": 0.0}
+    assert conditions(trajectory, true_theta=np.ones(3))["A5"].constants == {"parameter_drift": 0.0}
 
 
 def test_p_bar_is_reconstructed_where_it_was_not_recorded():
@@ -252,25 +254,25 @@ def test_p_bar_is_reconstructed_where_it_was_not_recorded():
     phi = dense.exciting(rng, 1, 60, 2, 3, 3)
     runs = dense.simulate(dense.subspace(0.9, 1e-3), phi, None, np.eye(3))
     path = np.concatenate([runs.before[0], runs.after[0][-1:]])
-    rebuilt = Record.from_arrays(runs.phi[0], path)
+    rebuilt = Trajectory.from_arrays(runs.phi[0], path)
     np.testing.assert_allclose(rebuilt.prior, runs.prior[0], rtol=1e-9, atol=1e-12)
     F = np.linalg.inv(runs.before[0]) - np.linalg.inv(runs.prior[0])
-    given = Record.from_arrays(runs.phi[0], path, forgetting=F)
+    given = Trajectory.from_arrays(runs.phi[0], path, forgetting=F)
     np.testing.assert_allclose(given.prior, runs.prior[0], rtol=1e-8, atol=1e-12)
     assert conditions(rebuilt)["A1"].verdict == conditions(given)["A1"].verdict == "holds"
 
 
 def test_limits_fail_at_the_first_sample_outside():
     variance = np.linspace(1.0, 2.0, 101)[:, None, None]
-    record = Record.from_arrays(np.zeros((100, 1)), variance)
-    found = conditions(record, limits=(0.5, 1.5))
-    assert found["A2"].sample == int(np.argmax(record.prior[:, 0, 0] > 1.5))
-    assert conditions(record, limits=(1.005, 9.0))["A3"].sample == 0
+    trajectory = Trajectory.from_arrays(np.zeros((100, 1)), variance)
+    found = conditions(trajectory, limits=(0.5, 1.5))
+    assert found["A2"].sample == int(np.argmax(trajectory.prior[:, 0, 0] > 1.5))
+    assert conditions(trajectory, limits=(1.005, 9.0))["A3"].sample == 0
 
 
 def test_words_and_json():
     phi = dense.exciting(np.random.default_rng(1), 1, 60, 1, 2, 2)
-    found = conditions(dense.simulate(dense.exponential(0.9), phi, None, np.eye(2)).record())
+    found = conditions(dense.simulate(dense.exponential(0.9), phi, None, np.eye(2)).trajectory())
     json.dumps(found.to_dict())
     json.dumps(stability(found).to_dict())
     json.dumps(excitation(phi[0], 2).to_dict())
@@ -278,11 +280,11 @@ def test_words_and_json():
 
 
 def test_a_record_and_its_regressors_are_not_given_twice():
-    record = Record.from_arrays(np.ones((3, 1)), np.full((4, 1, 1), 0.5))
+    trajectory = Trajectory.from_arrays(np.ones((3, 1)), np.full((4, 1, 1), 0.5))
     with pytest.raises(InvalidInput, match="regressors"):
-        conditions(record, np.ones((3, 1)))
+        conditions(trajectory, np.ones((3, 1)))
     # P₊ = 2 after a sample that informs by 1 would need information below zero before it.
     with pytest.raises(InvalidInput, match="covariance"):
-        Record.from_arrays(np.ones((3, 1)), np.full((4, 1, 1), 2.0))
+        Trajectory.from_arrays(np.ones((3, 1)), np.full((4, 1, 1), 2.0))
     with pytest.raises(InvalidInput, match="covariance"):
-        Record.from_arrays(np.ones((3, 1)), np.ones((3, 1, 1)))
+        Trajectory.from_arrays(np.ones((3, 1)), np.ones((3, 1, 1)))

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from forgetting import InvalidInput
-from forgetting.analysis import Record, confidence
+from forgetting.analysis import Trajectory, confidence
 
 
 def _runs(rule, *, runs, samples, n=3, rows=1, sigma=0.5, seed=0, gamma=None):
@@ -34,7 +34,7 @@ def test_coverage_without_forgetting_is_the_nominal_one_over_1e5_samples():
         inside = counted = 0
         for run in range(100):
             found = confidence(
-                done.record(run), errors=done.errors[run], noise_variance=given, warm_up=40
+                done.trajectory(run), errors=done.errors[run], noise_variance=given, warm_up=40
             )
             inside += found.coverage * found.counted.sum()
             counted += found.counted.sum()
@@ -45,7 +45,7 @@ def test_coverage_without_forgetting_is_the_nominal_one_over_1e5_samples():
 
 def test_standard_errors_are_the_spread_of_the_estimate():
     done, truth = _runs(dense.none(), runs=3000, samples=60)
-    found = confidence(done.record(), errors=done.errors[0], noise_variance=0.25, warm_up=1)
+    found = confidence(done.trajectory(), errors=done.errors[0], noise_variance=0.25, warm_up=1)
     # Each run has its own regressors; the mean of P over the runs is what the spread shows.
     spread = np.sqrt(np.mean((done.theta[:, -1] - truth) ** 2, axis=0))
     mean = np.sqrt(0.25 * np.mean(np.diagonal(done.after[:, -1], axis1=1, axis2=2), axis=0))
@@ -68,12 +68,12 @@ def test_standard_errors_are_the_spread_of_the_estimate():
 )
 def test_for_fixed_parameters_p_is_conservative_and_the_other_reading_is_right(rule):
     done, truth = _runs(rule, runs=1500, samples=150, seed=3)
-    found = confidence(done.record(), errors=done.errors[0], noise_variance=0.25)
+    found = confidence(done.trajectory(), errors=done.errors[0], noise_variance=0.25)
     assert (found.fixed_standard_error <= found.standard_error * (1 + 1e-9)).all()
     # C, averaged over runs with regressors of their own, is the spread of the estimates.
     total = np.zeros(3)
     for run in range(300):
-        path = confidence(done.record(run), errors=done.errors[run], noise_variance=0.25)
+        path = confidence(done.trajectory(run), errors=done.errors[run], noise_variance=0.25)
         total += path.fixed_standard_error[-1, :, 0] ** 2 / 300
     spread = np.mean((done.theta[:, -1] - truth) ** 2, axis=0)
     np.testing.assert_allclose(spread, total, rtol=0.2)
@@ -81,7 +81,7 @@ def test_for_fixed_parameters_p_is_conservative_and_the_other_reading_is_right(r
 
 def test_exponential_forgetting_doubles_the_variance():
     done, _ = _runs(dense.exponential(0.98), runs=1, samples=3000)
-    found = confidence(done.record(), errors=done.errors[0])
+    found = confidence(done.trajectory(), errors=done.errors[0])
     ratio = (found.standard_error[1000:] / found.fixed_standard_error[1000:]) ** 2
     assert ratio.mean() == pytest.approx(2.0, rel=0.1)
     # Fixed parameters: the interval from P covers too much, the other one what it says.
@@ -107,7 +107,7 @@ def test_p_is_the_covariance_of_the_walk_the_rule_supposes():
     y = np.einsum("btpn,btn->btp", phi, truth) + sigma * rng.normal(size=(runs, samples, 1))
     done = dense.simulate(rule, phi, y, np.eye(n))
     inside = [
-        confidence(done.record(r), errors=done.errors[r], noise_variance=sigma**2).coverage
+        confidence(done.trajectory(r), errors=done.errors[r], noise_variance=sigma**2).coverage
         for r in range(100)
     ]
     assert np.mean(inside) == pytest.approx(0.95, abs=0.01)
@@ -122,8 +122,10 @@ def test_two_rows_with_a_full_weighting():
     inside = []
     for run in range(60):
         path = np.concatenate([done.before[run], done.after[run][-1:]])
-        record = Record.from_arrays(raw[run], path, prior_covariance=done.prior[run], gamma=gamma)
-        found = confidence(record, errors=errors[run])
+        trajectory = Trajectory.from_arrays(
+            raw[run], path, prior_covariance=done.prior[run], gamma=gamma
+        )
+        found = confidence(trajectory, errors=errors[run])
         inside.append(found.coverage)
         assert found.half_width.shape == (400, 2, 1)
     assert np.mean(inside) == pytest.approx(0.95, abs=0.005)
@@ -134,7 +136,7 @@ def test_an_interval_is_known_before_its_output():
     done, _ = _runs(dense.none(), runs=1, samples=200)
     changed = done.errors[0].copy()
     changed[150:] *= 100.0
-    plain, other = (confidence(done.record(), errors=e) for e in (done.errors[0], changed))
+    plain, other = (confidence(done.trajectory(), errors=e) for e in (done.errors[0], changed))
     np.testing.assert_array_equal(plain.half_width[:151], other.half_width[:151])
     assert (plain.half_width[151:] < other.half_width[151:]).all()
 
@@ -143,10 +145,10 @@ def test_missing_errors_do_not_count_and_short_records_say_so():
     done, _ = _runs(dense.none(), runs=1, samples=200)
     errors = done.errors[0].copy()
     errors[::2] = np.nan
-    found = confidence(done.record(), errors=errors)
+    found = confidence(done.trajectory(), errors=errors)
     assert not found.counted[::2].any() and found.counted[101::2].all()
     short = confidence(
-        Record.from_arrays(done.phi[0, :20], done.before[0, :21]), errors=done.errors[0, :20]
+        Trajectory.from_arrays(done.phi[0, :20], done.before[0, :21]), errors=done.errors[0, :20]
     )
     assert np.isnan(short.coverage) and "too short" in str(short)
     assert short.to_dict()["coverage"] is None
@@ -161,4 +163,4 @@ def test_misuse_is_refused_by_name():
         ({"errors": None}, "error"),
     ):
         with pytest.raises(InvalidInput, match=word):
-            confidence(done.record(), **{"errors": done.errors[0], **change})
+            confidence(done.trajectory(), **{"errors": done.errors[0], **change})

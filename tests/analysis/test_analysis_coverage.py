@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import forgetting as fg
-from forgetting.analysis import Record, confidence
+from forgetting.analysis import Trajectory, confidence
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "trust.md"
 RUNS, SAMPLES, PARAMETERS, START = 100, 1000, 3, 4.0
@@ -73,8 +73,8 @@ def test_the_intervals_are_those_of_confidence():
     run = fg.RLS(PARAMETERS, rule=fg.Exponential(0.95), initial_covariance=START).run(
         phi, y, outputs=wanted
     )
-    record = Record.from_run(run, phi, initial_covariance=START)
-    found = confidence(record, errors=run.error, noise_variance=1.0)
+    trajectory = Trajectory.from_run(run, phi, initial_covariance=START)
+    found = confidence(trajectory, errors=run.error, noise_variance=1.0)
     quantile = NormalDist().inv_cdf(0.975)
     half = quantile * (run.error / run.whitened_innovation)[:, :, np.newaxis]
     np.testing.assert_allclose(found.half_width, half, rtol=1e-9)

@@ -1,5 +1,7 @@
 """α, β and the excited directions equal sums written out one window at a time."""
 
+import sys
+
 import numpy as np
 import pytest
 
@@ -9,6 +11,7 @@ from forgetting.analysis import (
     information_content,
     persistency_window,
     spectrum,
+    trend,
 )
 
 
@@ -158,6 +161,34 @@ def test_spectrum_finds_the_tones_and_keeps_the_power():
         assert np.abs(peaks[:9] - 1 / period).min() < 1 / 1024
     assert found.power.sum(axis=0) == pytest.approx([1.5, 1.0], rel=0.01)
     assert spectrum(_three_tones(20000)[:, None]).lines() == 3
+
+
+def test_spectrum_is_the_mean_of_windowed_periodograms():
+    """Welch (1967): half-overlapping segments, a periodic Hann window, mean squares per bin."""
+    x = np.random.default_rng(9).normal(size=(300, 2))
+    found = spectrum(x, segment=50)
+    window = 0.5 - 0.5 * np.cos(2 * np.pi * np.arange(50) / 50)
+    parts = [
+        np.abs(np.fft.fft(window[:, None] * x[k : k + 50], axis=0)) ** 2 for k in range(0, 251, 25)
+    ]
+    two_sided = np.mean(parts, axis=0) / (50 * np.sum(window**2))
+    expected = two_sided[:26].copy()
+    expected[1:25] += two_sided[:-25:-1]
+    assert found.segments == len(parts) == 11
+    np.testing.assert_allclose(found.power, expected, rtol=1e-12)
+
+
+def test_the_rows_of_a_single_sample_are_averaged():
+    assert spectrum([[[1.0], [3.0]]]).power.tolist() == [[5.0]]
+
+
+@pytest.mark.parametrize("ask", [lambda: spectrum(np.ones((8, 1))), lambda: trend(np.ones(99))])
+def test_what_needs_scipy_says_so(ask, monkeypatch):
+    for name in ("scipy", "scipy.stats", "scipy.signal"):
+        monkeypatch.setitem(sys.modules, name, None)
+    with pytest.raises(ImportError, match=r"needs scipy: pip install 'forgetting\[cli\]'"):
+        ask()
+    assert excitation(np.ones((8, 1)), 2).persistent
 
 
 def test_a_missing_sample_is_no_information():

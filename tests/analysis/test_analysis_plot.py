@@ -10,7 +10,7 @@ matplotlib = pytest.importorskip("matplotlib")
 matplotlib.use("Agg")
 from matplotlib import pyplot as plt  # noqa: E402
 
-from forgetting.analysis import plot  # noqa: E402
+from forgetting import plot  # noqa: E402
 
 
 @pytest.fixture
@@ -28,7 +28,7 @@ def run():
     noise = 0.1 * rng.normal(size=(1, 300, 1))
     y = phi @ np.array([1.0, -1.0]) + noise
     done = dense.simulate(dense.exponential(0.95), phi, y, np.eye(2))
-    return done, done.record()
+    return done, done.trajectory()
 
 
 def _line(ax, label):
@@ -67,8 +67,8 @@ def test_conditions_and_stability(run, ax):
 
 def test_stability_shows_the_guarantee(ax):
     phi = dense.exciting(np.random.default_rng(1), 1, 200, 1, 2, 2)
-    record = dense.simulate(dense.exponential(0.9), phi, None, np.eye(2)).record()
-    found = analysis.stability(analysis.conditions(record))
+    trajectory = dense.simulate(dense.exponential(0.9), phi, None, np.eye(2)).trajectory()
+    found = analysis.stability(analysis.conditions(trajectory))
     assert plot.stability(found, ax) is ax
     assert _line(ax, "guaranteed, c_N")[0] == found.decrease
     assert (_line(ax, "seen, at least") >= found.decrease).all()
@@ -83,8 +83,8 @@ def test_ultimate_bound(ax):
 
 
 def test_confidence(run, ax):
-    done, record = run
-    found = analysis.confidence(record, errors=done.errors[0])
+    done, trajectory = run
+    found = analysis.confidence(trajectory, errors=done.errors[0])
     assert plot.confidence(found, ax) is ax
     missed = np.abs(found.error[found.counted]) > found.half_width[found.counted]
     assert len(_line(ax, "outside")) == int(missed.sum())

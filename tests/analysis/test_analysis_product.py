@@ -30,10 +30,10 @@ def _noise_free(setting, seed, gate=None):
     if setting.axes:
         phi *= np.eye(3)[np.arange(80 * rows) % 3].reshape(80, rows, 3)
     truth = rng.normal(size=3)
-    run, record = follow(setting, phi, phi @ truth, gate=gate)
+    run, trajectory = follow(setting, phi, phi @ truth, gate=gate)
     theta = np.concatenate([np.zeros((1, 3)), run.theta])
-    path = np.concatenate([record.before, record.after[-1:]])
-    return lyapunov(theta - truth, path), record
+    path = np.concatenate([trajectory.before, trajectory.after[-1:]])
+    return lyapunov(theta - truth, path), trajectory
 
 
 @pytest.mark.parametrize("gate", GATES, ids=repr)
@@ -41,17 +41,17 @@ def _noise_free(setting, seed, gate=None):
 def test_lyapunov_function_never_rises_without_noise(name, gate):
     for setting in proper(3)[name]:
         for seed in range(8):
-            V, record = _noise_free(setting, seed, gate)
+            V, trajectory = _noise_free(setting, seed, gate)
             assert (np.diff(V) <= 1e-9 * V[0]).all(), (setting, seed)
-            assert conditions(record, window=40)["A1"].verdict in ("holds", "not decidable")
+            assert conditions(trajectory, window=40)["A1"].verdict in ("holds", "not decidable")
 
 
 @pytest.mark.parametrize("name", improper(3))
 def test_rules_that_are_not_always_proper_have_a_counterexample(name):
     rises = []
     for seed in range(8):
-        V, record = _noise_free(improper(3)[name], seed)
-        rises.append((np.diff(V).max() / V[0], conditions(record, window=40)["A1"].verdict))
+        V, trajectory = _noise_free(improper(3)[name], seed)
+        rises.append((np.diff(V).max() / V[0], conditions(trajectory, window=40)["A1"].verdict))
     rise, verdict = max(rises)
     assert rise > 1e-3
     assert verdict == "fails"
@@ -73,9 +73,9 @@ def _disturbed(setting, shape, seed):
     noise = 0.1 * rng.uniform(-1, 1, (SAMPLES, rows)) * (kind in (1, 3))
     blur = 0.05 * rng.uniform(-1, 1, phi.shape) * (kind in (2, 3))
     y = np.einsum("tpn,tn->tp", phi + blur, truth) + noise
-    run, record = follow(setting, phi, y, truth[0] + 0.1)
+    run, trajectory = follow(setting, phi, y, truth[0] + 0.1)
     found = conditions(
-        record,
+        trajectory,
         window=window,
         true_theta=truth,
         measurement_noise=noise,

@@ -8,7 +8,7 @@ import pytest
 
 import forgetting as fg
 from forgetting.analysis import (
-    Record,
+    Trajectory,
     certify,
     conditions,
     confidence,
@@ -49,13 +49,13 @@ def _run(rule, phi, y, P0=1.0, **options):
 def test_record_of_a_run_equals_the_dense_recursion(name, rows):
     phi, y, _ = _data(rows)
     rule, reference = RULES[name]
-    record = Record.from_run(_run(rule, phi, y), phi, initial_covariance=1.0)
-    expected = dense.simulate(reference, phi[None], y[None], np.eye(3)).record()
+    trajectory = Trajectory.from_run(_run(rule, phi, y), phi, initial_covariance=1.0)
+    expected = dense.simulate(reference, phi[None], y[None], np.eye(3)).trajectory()
     for part in ("before", "prior", "after"):
         np.testing.assert_allclose(
-            getattr(record, part), getattr(expected, part), rtol=1e-8, atol=1e-13
+            getattr(trajectory, part), getattr(expected, part), rtol=1e-8, atol=1e-13
         )
-    found, dense_found = conditions(record), conditions(expected)
+    found, dense_found = conditions(trajectory), conditions(expected)
     assert [c.verdict for c in found] == [c.verdict for c in dense_found]
     assert found["A1"].verdict == "holds"
     for symbol in ("a", "b", "alpha", "beta", "window"):
@@ -78,7 +78,10 @@ def test_conclusions_and_bound_of_a_run():
 def test_without_the_initial_covariance_the_record_starts_at_sample_one():
     phi, y, _ = _data()
     run = _run(fg.Exponential(0.97), phi, y)
-    late, full = Record.from_run(run, phi), Record.from_run(run, phi, initial_covariance=1.0)
+    late, full = (
+        Trajectory.from_run(run, phi),
+        Trajectory.from_run(run, phi, initial_covariance=1.0),
+    )
     assert (late.first, late.samples, full.samples) == (1, 399, 400)
     np.testing.assert_array_equal(late.prior, full.prior[1:])
     found = confidence(run, phi)
@@ -121,9 +124,9 @@ def test_a_run_that_has_lost_every_digit_to_windup_can_still_be_judged():
     phi = np.random.default_rng(3).normal(size=(1600, 4))
     phi[100:1500] = 0.0  # 0.95^-1400 = 2e31
     run = fg.RLS(4, rule=fg.Exponential(0.95)).run(phi, np.zeros(1600), outputs=OUTPUTS)
-    record = Record.from_run(run, phi, initial_covariance=100.0)
-    assert not record.resolved[1500] and record.resolved[:1500].all()
-    np.testing.assert_array_equal(record.prior[1500], record.before[1500])
+    trajectory = Trajectory.from_run(run, phi, initial_covariance=100.0)
+    assert not trajectory.resolved[1500] and trajectory.resolved[:1500].all()
+    np.testing.assert_array_equal(trajectory.prior[1500], trajectory.before[1500])
     found = certify(run, phi, initial_covariance=100.0)
     assert found.windup_occurred and found.conditions["A1"].verdict == "not decidable"
     json.dumps(found.to_dict(), allow_nan=False)
@@ -174,11 +177,11 @@ def test_skipped_samples_inform_nothing():
     phi[100:120] *= 1e-6
     est = fg.RLS(3, rule=fg.Subspace(0.97, threshold=1e-3), initial_covariance=1.0)
     run = est.run(phi[:, 0], y[:, 0], outputs=OUTPUTS, missing="skip")
-    record = Record.from_run(run, phi, initial_covariance=1.0)
+    trajectory = Trajectory.from_run(run, phi, initial_covariance=1.0)
     assert (run.skipped[50:60] == 2).all() and (run.skipped[100:120] == 1).all()
-    assert (record.phibar[50:60] == 0).all() and (record.phibar[100:120] == 0).all()
-    np.testing.assert_array_equal(record.prior[100:120], record.before[100:120])
-    assert conditions(record)["A1"].verdict == "holds"
+    assert (trajectory.phibar[50:60] == 0).all() and (trajectory.phibar[100:120] == 0).all()
+    np.testing.assert_array_equal(trajectory.prior[100:120], trajectory.before[100:120])
+    assert conditions(trajectory)["A1"].verdict == "holds"
     assert not confidence(run, phi).counted[49:59].any()  # sample 0 is not in the record
 
 
@@ -214,10 +217,10 @@ def test_full_weighting_and_two_targets():
 def test_single_precision_is_judged_with_its_own_roundoff():
     phi, y, _ = _data(samples=2000)
     run = _run(fg.Exponential(0.97), phi, y, dtype="float32")
-    record = Record.from_run(run, phi, initial_covariance=1.0)
+    trajectory = Trajectory.from_run(run, phi, initial_covariance=1.0)
     if run.covariance.dtype == np.float32:
-        assert record.precision == pytest.approx(float(np.finfo(np.float32).eps))
-    assert conditions(record)["A1"].verdict == "holds"
+        assert trajectory.precision == pytest.approx(float(np.finfo(np.float32).eps))
+    assert conditions(trajectory)["A1"].verdict == "holds"
 
 
 def test_coverage_of_plain_least_squares_over_1e5_samples():

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from live_windup import factor_ud, live_alarms
 
-from forgetting.analysis import Record, certify, windup
+from forgetting.analysis import Trajectory, certify, windup
 
 SAMPLES, DAY = 2000, 500
 
@@ -53,20 +53,20 @@ CASES = [(rule, given) for rule in RULES for given in INPUTS]
 
 def _record(rule, given):
     phi = INPUTS[given][None, :, None, :]
-    return dense.simulate(rule, phi, None, np.eye(4)).record()
+    return dense.simulate(rule, phi, None, np.eye(4)).trajectory()
 
 
 @pytest.mark.parametrize(("rule", "given"), CASES)
 def test_windup_is_where_it_should_be_and_the_live_alarm_agrees(rule, given):
-    record = _record(RULES[rule][0], given)
-    found = windup(record)
+    trajectory = _record(RULES[rule][0], given)
+    found = windup(trajectory)
     assert found.occurred is (given in RULES[rule][1])
-    assert live_alarms(record, found.window).any() == found.occurred
+    assert live_alarms(trajectory, found.window).any() == found.occurred
 
 
 def test_the_first_alarm_is_when_the_variance_has_grown_tenfold():
-    record = _record(dense.exponential(0.99), "night")
-    found = windup(record)
+    trajectory = _record(dense.exponential(0.99), "night")
+    found = windup(trajectory)
     needed = int(np.ceil(np.log(10) / -np.log(0.99)))
     # The direction that was informed least in the last samples of the day leads by a few.
     assert DAY - 10 <= found.sample - needed <= DAY
@@ -75,33 +75,33 @@ def test_the_first_alarm_is_when_the_variance_has_grown_tenfold():
 
 
 def test_the_direction_is_the_one_nothing_is_said_about():
-    record = _record(dense.exponential(0.99), "constant")
-    found = windup(record)
+    trajectory = _record(dense.exponential(0.99), "constant")
+    found = windup(trajectory)
     assert found.persists
     assert np.abs(INPUTS["constant"][-1] @ found.direction) < 1e-6
-    largest = np.linalg.eigh(record.after[-1])[1][:, 1:]  # the silent three of four
+    largest = np.linalg.eigh(trajectory.after[-1])[1][:, 1:]  # the silent three of four
     assert np.linalg.norm(largest.T @ found.direction) == pytest.approx(1.0, abs=1e-6)
 
 
 def test_a_ceiling_excuses_growth_that_the_rule_means():
     rule = dense.resetting(0.99, np.eye(4))
-    record = _record(rule, "night")
-    assert windup(record).occurred
-    assert not windup(record, ceiling=1.0).occurred
-    assert windup(record, ceiling=0.1).occurred
+    trajectory = _record(rule, "night")
+    assert windup(trajectory).occurred
+    assert not windup(trajectory, ceiling=1.0).occurred
+    assert windup(trajectory, ceiling=0.1).occurred
     assert windup(_record(dense.exponential(0.99), "night"), ceiling=1.0).occurred
 
 
 def test_units_of_the_parameters_do_not_matter():
-    record = _record(dense.exponential(0.99), "constant")
+    trajectory = _record(dense.exponential(0.99), "constant")
     units = np.diag([1.0, 1e-3, 1e3, 10.0]) @ np.linalg.qr(np.ones((4, 4)) + np.eye(4))[0]
     back = np.linalg.inv(units)
-    path = np.concatenate([record.before, record.after[-1:]])
-    prior = units @ record.prior @ units.T
-    turned = Record.from_arrays(
-        record.phibar @ back, units @ path @ units.T, prior_covariance=prior
+    path = np.concatenate([trajectory.before, trajectory.after[-1:]])
+    prior = units @ trajectory.prior @ units.T
+    turned = Trajectory.from_arrays(
+        trajectory.phibar @ back, units @ path @ units.T, prior_covariance=prior
     )
-    first, second = windup(record, stride=7), windup(turned, stride=7)
+    first, second = windup(trajectory, stride=7), windup(turned, stride=7)
     assert first.sample == second.sample
     # Up to where P has lost half of the digits to windup.
     fine = first.path < 1e4
@@ -111,10 +111,12 @@ def test_units_of_the_parameters_do_not_matter():
 def test_growth_while_informed_is_not_windup():
     # Forgetting jumps from 0.9999 to 0.97: P grows manyfold, with all the data it needs.
     rates = np.where(np.arange(SAMPLES) < 1500, 0.9999, 0.97)
-    record = _record(dense.variable_rate(rates), "always")
-    grown = np.linalg.eigvalsh(record.after[-1])[0] / np.linalg.eigvalsh(record.after[1490])[-1]
+    trajectory = _record(dense.variable_rate(rates), "always")
+    grown = (
+        np.linalg.eigvalsh(trajectory.after[-1])[0] / np.linalg.eigvalsh(trajectory.after[1490])[-1]
+    )
     assert grown > 10
-    assert not windup(record, window=50).occurred
+    assert not windup(trajectory, window=50).occurred
 
 
 def test_factors_of_the_live_alarm():

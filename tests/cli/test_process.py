@@ -57,8 +57,11 @@ def test_missing_extras_are_named():
 def test_numpy_alone_is_enough_for_the_estimator():
     code = (
         "import sys, forgetting as fg\n"
+        "from forgetting.analysis import excitation\n"
         "fg.ARX(1, 1, 0).fit([1.0, 2.0], [1.0, 2.0])\n"
+        "excitation([[1.0], [2.0]], 1)\n"
         "heavy = {'pandas', 'matplotlib', 'formulaic', 'typer', 'rich', 'jinja2', 'pyarrow'}\n"
+        "heavy |= {'scipy', 'narwhals'}\n"
         "print(sorted(heavy & set(sys.modules)))\n"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)

@@ -6,8 +6,8 @@ import pytest
 from matplotlib import pyplot as plt
 
 import forgetting as fg
+from forgetting.cli.reproduce import measured, reproduce
 from forgetting.papers import Check, Claim, all_checks, all_pictures, catalogue
-from forgetting.papers.command import measured, reproduce
 from forgetting.plot import styled
 
 PICTURES = all_pictures()

@@ -5,7 +5,7 @@ from decimal import Decimal, getcontext
 import numpy as np
 import pytest
 
-from forgetting.papers.eigenvalues import spectrum
+from forgetting.papers.eigenvalues import eigenpairs
 from forgetting.papers.opd import system as opd
 from forgetting.papers.vdf import systems
 
@@ -67,6 +67,6 @@ def test_eigenvalues_keep_their_digits_whatever_the_condition(exponent):
     mean, half = (a + c) / 2, (((a - c) / 2) ** 2 + b * b).sqrt()
     large = mean + half
     wanted = [float(large), float(Decimal(d1) * Decimal(d2) / large)]
-    values, vectors = spectrum(np.array([[[1.0, u], [0.0, 1.0]]]), np.array([[d1, d2]]))
+    values, vectors = eigenpairs(np.array([[[1.0, u], [0.0, 1.0]]]), np.array([[d1, d2]]))
     np.testing.assert_allclose(values[0], wanted, rtol=1e-14)
     np.testing.assert_allclose(vectors[0].T @ vectors[0], np.eye(2), atol=1e-14)

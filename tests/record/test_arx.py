@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import pickle
+import sys
 
 import numpy as np
 import pytest
@@ -81,6 +82,47 @@ def test_simulate_is_a_free_run():
     assert np.array_equal(begun[:50], y[:50] + 1.0)
     assert np.abs(begun[50] - y[50]).max() > 0.1
     np.testing.assert_allclose(begun[150:], y[150:], atol=1e-4)
+
+
+def by_recursion(model, u, start):
+    """A free run sample by sample, from rest: a different computation of the same outputs."""
+    theta, outputs = model.theta_.reshape(-1, start.shape[1]), start.shape[1]
+    y = np.zeros((len(u), outputs))
+    y[: len(start)] = start
+    for k in range(len(start), len(u)):
+        past = [-y[k - lag] if k >= lag else np.zeros(outputs) for lag in range(1, model.na + 1)]
+        lags = range(model.nk, model.nk + model.nb)
+        past += [u[k - lag] if k >= lag else np.zeros(u.shape[1]) for lag in lags]
+        y[k] = np.concatenate(past) @ theta
+    return y
+
+
+@pytest.mark.parametrize("start", [0, 1, 5, 40])
+@pytest.mark.parametrize("orders", [(1, 1, 0), (3, 2, 4), (0, 2, 1), (2, 1, 50)])
+def test_outputs_that_act_on_one_another_run_freely(plant, orders, start):
+    u, y = plant[["u1", "u2"]].to_numpy(), plant[["y1", "y2"]].to_numpy()
+    model = fg.ARX(*orders).fit(u, y)
+    expected = by_recursion(model, u[:40], y[:start])
+    simulated = model.simulate(u[:40], y_start=y[:start])
+    # Sums in another order: 40 samples of rounding.
+    np.testing.assert_allclose(simulated, expected, rtol=1e-12, atol=1e-13)
+    assert np.array_equal(simulated[:start], y[:start])
+
+
+def test_a_free_run_of_no_samples_is_empty():
+    u, y = signals(2)
+    assert fg.ARX(2, 2, 1).fit(u, y).simulate(u[:0]).shape == (0, 2)
+
+
+def test_a_free_run_without_scipy_says_what_to_install(monkeypatch):
+    u, y = signals()
+    model = fg.ARX(2, 2, 1).fit(u, y)
+    for name in ("scipy", "scipy.linalg", "scipy.linalg.blas"):
+        monkeypatch.setitem(sys.modules, name, None)
+    with pytest.raises(
+        ImportError, match=r"a free run needs scipy: pip install 'forgetting\[cli\]'"
+    ):
+        model.simulate(u)
 
 
 def test_without_input():

@@ -112,6 +112,37 @@ def test_parquet_is_the_same_record_as_csv(tmp_path, plant):
     assert np.array_equal(one.theta, other.theta)
 
 
+@pytest.mark.parametrize("library", ["polars", "pyarrow"])
+def test_frames_of_other_libraries_are_the_same_record(plant, library):
+    other = pytest.importorskip(library)
+    plant.loc[100, "u1"] = np.nan
+    plant["time"] = pd.to_datetime(plant["time"], unit="s")
+    plant["phase"] = np.where(np.arange(400) < 200, "up", "down")
+    if library == "polars":
+        frame = other.DataFrame({name: plant[name].to_numpy() for name in plant.columns})
+        frame = frame.fill_nan(None)  # a missing cell of its own kind
+    else:
+        frame = other.Table.from_pandas(plant)
+    formula = "y1 ~ 0 + lag(y1) + u1 + C(phase)"
+    one, same = identify(plant, formula=formula), identify(frame, formula=formula)
+    assert np.array_equal(one.theta, same.theta) and one.missing == same.missing == 2
+    assert one.samples.regressors == same.samples.regressors
+    assert one.samples.clock is not None and same.samples.clock is not None
+    assert np.array_equal(one.samples.clock.seconds(), same.samples.clock.seconds())
+
+
+@pytest.mark.parametrize("thing", [3, [1.0, 2.0], {"x": [1.0]}, np.ones((3, 2)), pd.Series([1.0])])
+def test_things_that_are_no_record(thing):
+    with pytest.raises(RecordError, match="a record is a file or a data frame in memory, but got"):
+        read(thing)
+
+
+def test_a_lazy_frame_is_refused():
+    polars = pytest.importorskip("polars")
+    with pytest.raises(RecordError, match=r"but got polars\..*LazyFrame"):
+        read(polars.LazyFrame({"x": [1.0]}))
+
+
 def test_tables_in_memory_keep_their_times():
     index = pd.date_range("2024-01-01", periods=3, freq="min")
     record = read(pd.DataFrame({"x": [1.0, 2.0, 3.0]}, index=index))

@@ -80,6 +80,25 @@ def test_methods_of_columns():
     np.testing.assert_array_equal(samples(frame, "y ~ 0 + x.clip(0)").phi[:, 0], [0, 2, 3])
 
 
+@pytest.mark.parametrize("term", ["I((x + z).clip(0))", "I(np.where(z > 0, x + z, 0).clip(0))"])
+def test_methods_of_expressions(term):
+    frame = pd.DataFrame({"x": [-1.0, 2.0, 3.0], "z": [-4.0, 1.0, 2.0], "y": [2.0, 4.0, 6.0]})
+    np.testing.assert_array_equal(samples(frame, f"y ~ 0 + {term}").phi[:, 0], [0, 3, 5])
+
+
+def test_functions_of_columns_that_formulaic_provides():
+    frame = pd.DataFrame({"x": [-1.0, 2.0, 5.0], "y": [2.0, 4.0, 6.0], "text": ["a", "b", "c"]})
+    np.testing.assert_allclose(samples(frame, "y ~ 0 + center(x)").phi[:, 0], [-3, 0, 3])
+    with pytest.raises(RecordError, match="column 'text' of record must hold numbers"):
+        samples(frame, "y ~ 0 + center(text)")
+
+
+def test_names_with_a_dot():
+    frame = pd.DataFrame({"cell.1": [1.0, 2.0, 3.0], "y": [2.0, 4.0, 6.0]})
+    lagged = samples(frame, "y ~ 0 + lag(`cell.1`)")
+    np.testing.assert_array_equal(lagged.phi[:, 0], [np.nan, 1, 2])
+
+
 def test_odd_names():
     frame = pd.DataFrame({"current [A]": [1.0, 2.0, 3.0], "y": [2.0, 4.0, 6.0]})
     np.testing.assert_array_equal(samples(frame, "y ~ 0 + `current [A]`").phi[:, 0], [1, 2, 3])
@@ -104,6 +123,7 @@ def test_columns_named_like_functions():
         ("y ~", "must read: output ~ regressors|cannot be read"),
         ("y ~ 0", "must read: output ~ regressors"),
         ("y ~ (x", "cannot be read"),
+        ("y ~ np.abs(x).clip(0)", "cannot be read"),
         ("y ~ wibble(x)", "calls 'wibble', an unknown function"),
         ("y ~ lag(z)", "no column 'z'"),
         ("y ~ x.nothing", "no column .x.nothing."),

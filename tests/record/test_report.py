@@ -10,7 +10,9 @@ import pandas as pd
 import pytest
 
 import forgetting as fg
+from forgetting.plot import save_overview
 from forgetting.record import RecordError, identify
+from forgetting.report import save
 
 LOADS = {"src", "href", "xlink:href", "data", "poster", "srcset", "action"}
 
@@ -53,7 +55,7 @@ def found(plant):
 
 
 def test_the_page_loads_nothing(found, tmp_path):
-    found.save_report(tmp_path / "report.html")
+    save(found, tmp_path / "report.html")
     page = parsed(tmp_path / "report.html")
     assert all(link.startswith("#") for link in page.loads)
     html = (tmp_path / "report.html").read_text(encoding="utf-8")
@@ -62,7 +64,7 @@ def test_the_page_loads_nothing(found, tmp_path):
 
 
 def test_the_page_has_its_parts(found, tmp_path):
-    found.save_report(tmp_path / "report.html")
+    save(found, tmp_path / "report.html")
     html = (tmp_path / "report.html").read_text(encoding="utf-8")
     text = " ".join(parsed(tmp_path / "report.html").text)
     for part in (
@@ -85,7 +87,7 @@ def test_the_page_has_its_parts(found, tmp_path):
 
 
 def test_names_are_escaped(found, tmp_path):
-    found.save_report(tmp_path / "report.html")
+    save(found, tmp_path / "report.html")
     html = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert "<b>u1</b>" not in html and "&lt;b&gt;u1&lt;/b&gt; &amp; co(k)" in html
 
@@ -94,7 +96,7 @@ def test_long_records_stay_small(tmp_path):
     rng = np.random.default_rng(6)
     frame = pd.DataFrame(rng.normal(size=(60_000, 6)), columns=list("abcdef"))
     frame["y"] = frame.sum(axis=1) + rng.normal(size=60_000)
-    identify(frame, formula="y ~ a + b + c + d + e + f").save_report(tmp_path / "long.html")
+    save(identify(frame, formula="y ~ a + b + c + d + e + f"), tmp_path / "long.html")
     assert (tmp_path / "long.html").stat().st_size < 3_000_000
 
 
@@ -102,8 +104,8 @@ def test_long_records_stay_small(tmp_path):
 def test_short_records_have_a_report(tmp_path, rows):
     frame = pd.DataFrame({"x": np.ones(rows), "y": np.ones(rows)})
     found = identify(frame, formula="y ~ x")
-    found.save_report(tmp_path / "short.html")
-    found.save_plot(tmp_path / "short.png")
+    save(found, tmp_path / "short.html")
+    save_overview(found, tmp_path / "short.png")
     html = (tmp_path / "short.html").read_text(encoding="utf-8")
     # Two parameters have no standard error before a third sample.
     assert ("not known" in html) == (rows < 3)
@@ -111,13 +113,13 @@ def test_short_records_have_a_report(tmp_path, rows):
 
 @pytest.mark.parametrize(("suffix", "magic"), [(".png", b"\x89PNG"), (".pdf", b"%PDF")])
 def test_plot(found, tmp_path, suffix, magic):
-    found.save_plot(tmp_path / f"plot{suffix}")
+    save_overview(found, tmp_path / f"plot{suffix}")
     assert (tmp_path / f"plot{suffix}").read_bytes().startswith(magic)
 
 
 def test_plot_goes_to_known_files(found, tmp_path):
     with pytest.raises(RecordError, match=r"the file is 'plot\.docx'"):
-        found.save_plot(tmp_path / "plot.docx")
+        save_overview(found, tmp_path / "plot.docx")
 
 
 def test_plots_take_and_return_axes(found):
@@ -152,7 +154,7 @@ def test_user_style_is_left_alone(found, tmp_path):
     import matplotlib as mpl
 
     before = dict(mpl.rcParams)
-    found.save_report(tmp_path / "report.html")
-    found.save_plot(tmp_path / "plot.png")
+    save(found, tmp_path / "report.html")
+    save_overview(found, tmp_path / "plot.png")
     assert dict(mpl.rcParams) == before
     assert fg.__version__ in (tmp_path / "report.html").read_text(encoding="utf-8")

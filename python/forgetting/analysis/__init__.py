@@ -16,7 +16,7 @@ corrected, applied to a finished run:
     confidence           standard errors, prediction intervals, coverage
     certify              all of it, and the verdict in plain words
 
-`forgetting.analysis.plot` draws each of them (it needs matplotlib).
+`forgetting.plot` draws each of them (it needs matplotlib).
 """
 
 from .certificate import Certificate, certify
@@ -29,9 +29,9 @@ from .excited import Excited, excited
 from .guarantee import Guarantee, guaranteed_bounds
 from .information import filtered_regressors
 from .lyapunov import lyapunov, lyapunov_decrease, observed_decrease
-from .record import Record
 from .spectrum import Spectrum, spectrum
 from .stability import Conclusion, Stability, stability
+from .trajectory import Trajectory
 from .trend import Trend, trend
 from .ultimate_bound import Amplification, UltimateBound, amplification, ultimate_bound
 from .windup import Windup, windup
@@ -48,9 +48,9 @@ __all__ = [
     "Excited",
     "Guarantee",
     "Persistency",
-    "Record",
     "Spectrum",
     "Stability",
+    "Trajectory",
     "Trend",
     "UltimateBound",
     "Windup",

@@ -1,4 +1,4 @@
-"""The bound that a rule sets to the covariance in silence, where it sets one."""
+"""The bound that a rule sets to the covariance without excitation, where it sets one."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from .validation import Array
 
 
 def ceiling_of(rule: Any, parameters: int) -> Array | None:
-    """Return the covariance that `rule` returns to in silence, (n, n), or None if none.
+    """Return the covariance that `rule` returns to without excitation, (n, n), or None.
 
-    A rule that forgets towards an information matrix returns to its inverse; a rule whose
-    header says that P̄ is always bounded, by no number, has an infinite ceiling.
+    A rule that forgets towards an information matrix returns to its inverse. A rule that
+    always bounds P̄, by a number that is not known beforehand, has an infinite ceiling.
 
     Parameters
     ----------
     rule : Rule
         As given to the estimator.
     parameters : int
-        n.
+        Number n of parameters.
 
     Examples
     --------

@@ -13,8 +13,8 @@ from .conditions import Conditions, conditions
 from .confidence import Confidence, confidence
 from .direction import describe_direction
 from .excitation import Excitation, excitation
-from .record import Record, record_of
 from .stability import Stability, stability
+from .trajectory import Trajectory, trajectory_of
 from .ultimate_bound import UltimateBound, ultimate_bound
 from .windup import Windup, windup
 
@@ -134,7 +134,7 @@ def certify(
 
     Parameters
     ----------
-    run : Run or Record
+    run : Run or Trajectory
         A Run needs ``outputs=(..., "covariance")``; with "error" the intervals are judged,
         with "prior_covariance" nothing is reconstructed.
     regressors, gamma, initial_covariance : optional
@@ -155,31 +155,31 @@ def certify(
     Examples
     --------
     >>> import numpy as np
-    >>> from forgetting.analysis import Record
-    >>> record = Record.from_arrays(np.ones((40, 1)), np.full((41, 1, 1), 0.5))
-    >>> certify(record).verdict
+    >>> from forgetting.analysis import Trajectory
+    >>> trajectory = Trajectory.from_arrays(np.ones((40, 1)), np.full((41, 1, 1), 0.5))
+    >>> certify(trajectory).verdict
     'No windup: every direction is excited and the estimate is stable.'
     """
-    record = record_of(run, regressors, gamma, initial_covariance)
+    trajectory = trajectory_of(run, regressors, gamma, initial_covariance)
     found = conditions(
-        record,
+        trajectory,
         window=window,
         threshold=threshold,
         true_theta=true_theta,
         measurement_noise=measurement_noise,
         regressor_noise=regressor_noise,
     )
-    wound = windup(record, ceiling=ceiling, rule=rule, factor=factor)
+    wound = windup(trajectory, ceiling=ceiling, rule=rule, factor=factor)
     # What the estimator remembers is what must excite it; A4 may hold for longer windows only.
-    length = min(window or wound.window, record.samples)
+    length = min(window or wound.window, trajectory.samples)
     truth = (true_theta, measurement_noise, regressor_noise)
     return Certificate(
-        excitation=excitation(record.phibar, length, threshold=threshold),
+        excitation=excitation(trajectory.phibar, length, threshold=threshold),
         conditions=found,
         stability=stability(found),
         windup=wound,
         ultimate_bound=_bound(found, truth),
-        confidence=_intervals(run, record),
+        confidence=_intervals(run, trajectory),
         names=None if names is None else tuple(names),
     )
 
@@ -188,7 +188,7 @@ def _bound(found: Conditions, truth: tuple[ArrayLike | None, ...]) -> UltimateBo
     return None if all(item is None for item in truth) else ultimate_bound(found)
 
 
-def _intervals(run: Any, record: Record) -> Confidence | None:
+def _intervals(run: Any, trajectory: Trajectory) -> Confidence | None:
     """Intervals where the run has errors, with the samples it skipped left out."""
     errors = getattr(run, "error", None)
     if errors is None:
@@ -197,7 +197,7 @@ def _intervals(run: Any, record: Record) -> Confidence | None:
     skipped = getattr(run, "skipped", None)
     if skipped is not None:
         values[np.asarray(skipped) != 0] = np.nan
-    return confidence(record, errors=values)
+    return confidence(trajectory, errors=values)
 
 
 def _indent(text: str) -> str:

@@ -27,7 +27,7 @@ from .excitation import (
     sample_bound,
     window_eigenvalues,
 )
-from .record import Record, record_of
+from .trajectory import Trajectory, trajectory_of
 from .trend import Trend
 from .validation import real, whole
 
@@ -44,8 +44,8 @@ class Condition:
         "A1" ... "A8".
     statement : str
     verdict : {"holds", "fails", "not decidable"}
-        "holds" is said of the samples in the record. For A2 and A3, which any finite
-        record meets with some constant, it also says that the constant does not drift.
+        "holds" is about the samples in the record. For A2 and A3, which any finite
+        record meets with some constant, it also means that the constant does not drift.
     constants : dict
         The constants found, by name.
     sample : int or None
@@ -64,7 +64,7 @@ class Condition:
     trend: Trend | None = None
 
     def __str__(self) -> str:
-        """One line, as a person would say it."""
+        """The condition in one line."""
         at = "" if self.sample is None else f" at sample {self.sample}"
         return f"{self.name} ({self.statement}) {self.verdict}{at}: {self.reason}"
 
@@ -86,7 +86,7 @@ class Conditions:
 
     verdicts: tuple[Condition, ...]
     window: int | None
-    record: Record = field(repr=False)
+    trajectory: Trajectory = field(repr=False)
 
     def __getitem__(self, name: str) -> Condition:
         """Return the condition called `name`, "A1" ... "A8"."""
@@ -130,10 +130,10 @@ def conditions(
 
     Parameters
     ----------
-    run : Run or Record
+    run : Run or Trajectory
         A Run needs ``outputs=(..., "covariance")``, better with "prior_covariance".
     regressors : (T, n) or (T, rows, n)
-        The regressors given to the run (None with a Record).
+        The regressors given to the run (None with a Trajectory).
     gamma, initial_covariance : optional
         As given to the run. Without the initial covariance the check starts at sample 1.
     window : int in [1, T], optional
@@ -170,38 +170,38 @@ def conditions(
     >>> import numpy as np
     >>> phi = np.ones((40, 1))
     >>> path = 0.5 * np.ones((41, 1, 1))
-    >>> record = Record.from_arrays(phi, path)  # forgets as much as it learns
-    >>> print(conditions(record)["A2"])
+    >>> trajectory = Trajectory.from_arrays(phi, path)  # forgets as much as it learns
+    >>> print(conditions(trajectory)["A2"])
     A2 (P̄ <= b I) holds: b = 1 over the record, no drift
     """
-    record = record_of(run, regressors, gamma, initial_covariance)
+    trajectory = trajectory_of(run, regressors, gamma, initial_covariance)
     a, b = (0.0, float("inf")) if limits is None else limits
     a = real("limits[0]", a, 0.0, float("inf"))
     b = real("limits[1]", b, 0.0, float("inf"), open_low=True)
-    condition, found = _excitation(record, window, threshold)
+    condition, found = _excitation(trajectory, window, threshold)
     first = (
-        Condition("A1", "F >= 0", *proper(record)),
-        Condition("A2", "P̄ <= b I", *upper_bound(record, b)),
-        Condition("A3", "P >= a I", *lower_bound(record, a)),
+        Condition("A1", "F >= 0", *proper(trajectory)),
+        Condition("A2", "P̄ <= b I", *upper_bound(trajectory, b)),
+        Condition("A3", "P >= a I", *lower_bound(trajectory, a)),
         condition,
     )
-    rest = disturbances(record, true_theta, measurement_noise, regressor_noise)
-    return Conditions(first + tuple(Condition(*item) for item in rest), found, record)
+    rest = disturbances(trajectory, true_theta, measurement_noise, regressor_noise)
+    return Conditions(first + tuple(Condition(*item) for item in rest), found, trajectory)
 
 
 def _excitation(
-    record: Record, window: int | None, threshold: float | None
+    trajectory: Trajectory, window: int | None, threshold: float | None
 ) -> tuple[Condition, int | None]:
     """A4, with the window asked for or the shortest that serves."""
     statement = "persistent excitation"
-    beta = sample_bound(record.phibar)
+    beta = sample_bound(trajectory.phibar)
     if window is None:
-        window = persistency_window(record.phibar, threshold=threshold)
+        window = persistency_window(trajectory.phibar, threshold=threshold)
     else:
-        window = whole("window", window, 1, record.samples)
+        window = whole("window", window, 1, trajectory.samples)
     if window is None:
-        return _no_window(record, statement, beta, threshold), None
-    values = window_eigenvalues(record.phibar, window)
+        return _no_window(trajectory, statement, beta, threshold), None
+    values = window_eigenvalues(trajectory.phibar, window)
     if threshold is None:
         threshold = RELATIVE_THRESHOLD * float(values.max())
     alpha = float(values[:, 0].min())
@@ -210,19 +210,21 @@ def _excitation(
     if failing is None:
         reason = f"alpha = {alpha:.4g}, beta = {beta:.4g} over every {window} samples"
         return Condition("A4", statement, "holds", found, None, reason), window
-    start = record.first + failing
+    start = trajectory.first + failing
     reason = f"the {window} samples from {start} on leave a direction without information"
     return Condition("A4", statement, "fails", found, start, reason), window
 
 
-def _no_window(record: Record, statement: str, beta: float, threshold: float | None) -> Condition:
+def _no_window(
+    trajectory: Trajectory, statement: str, beta: float, threshold: float | None
+) -> Condition:
     """No window up to half the record excites every direction all along it."""
-    values = window_eigenvalues(record.phibar, record.samples)[0]
+    values = window_eigenvalues(trajectory.phibar, trajectory.samples)[0]
     limit = RELATIVE_THRESHOLD * values[-1] if threshold is None else threshold
     excited = int((values > limit).sum())
     found = {"beta": beta}
-    if excited < record.parameters:
-        reason = f"the whole record informs about {excited} of {record.parameters} directions"
-        return Condition("A4", statement, "fails", found, record.first, reason)
+    if excited < trajectory.parameters:
+        reason = f"the whole record informs about {excited} of {trajectory.parameters} directions"
+        return Condition("A4", statement, "fails", found, trajectory.first, reason)
     reason = "no window up to half the record excites every direction; a longer record may"
     return Condition("A4", statement, "not decidable", found, None, reason)

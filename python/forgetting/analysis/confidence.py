@@ -13,15 +13,15 @@ every proper rule is the Kalman filter of a random walk with steps of covariance
 * directional, variable-direction and subspace forgetting: the parameters are supposed to
   move only along what the sample excites; elsewhere P is what it was at the last
   excitation, which is honest only if the parameters stood still there meanwhile;
-* resetting: after a reset P is the matrix the user declared, not what the data know; it is
+* resetting: after a reset P is the matrix that the user declared, whatever the data; it is
   meant to be larger than the error, and intervals are then wide.
 
 For parameters that are fixed the covariance C of the error follows from the gains alone,
 
     C_{k+1} = M_k C_k M_kᵀ + G_k G_kᵀ,   G_k = P_{k+1} φ̄_kᵀ,   M_k = I - G_k φ̄_k,   C_0 = P_0
 
-and C <= P for every proper rule. Both readings are returned; the coverage on the record
-tells which of them, if any, the record supports.
+and C <= P for every proper rule. Both readings are returned; their coverage shows
+which of them, if any, the record supports.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .record import Record, record_of
+from .trajectory import Trajectory, trajectory_of
 from .validation import Array, numbers, present, real, refuse, whole
 
 
@@ -128,12 +128,12 @@ def confidence(
 
     Parameters
     ----------
-    run : Run or Record
+    run : Run or Trajectory
         A Run needs ``outputs=(..., "error", "covariance")``.
     regressors, gamma, initial_covariance : optional
         As given to the run.
     errors : (T,), (T, rows) or (T, rows, targets), optional
-        One-step errors y_k - φ_k θ_k; needed with a Record.
+        One-step errors y_k - φ_k θ_k; needed with a Trajectory.
     level : float in (0, 1)
         Nominal coverage.
     noise_variance : float > 0, optional
@@ -150,16 +150,16 @@ def confidence(
 
     Notes
     -----
-    The intervals are Gaussian. The module says what P means under each rule.
+    The intervals are Gaussian. What P means under each rule stands at the head of this module.
 
     Examples
     --------
     >>> import numpy as np
-    >>> from forgetting.analysis import Record
+    >>> from forgetting.analysis import Trajectory
     >>> variance = 1 / np.arange(1.0, 402)  # RLS of a constant, P_0 = 1
-    >>> record = Record.from_arrays(np.ones((400, 1)), variance[:, None, None])
+    >>> trajectory = Trajectory.from_arrays(np.ones((400, 1)), variance[:, None, None])
     >>> errors = np.random.default_rng(0).normal(size=400) * np.sqrt(1 + variance[:-1])
-    >>> found = confidence(record, errors=errors, noise_variance=1.0)
+    >>> found = confidence(trajectory, errors=errors, noise_variance=1.0)
     >>> bool(abs(found.coverage - 0.95) < 3 * found.uncertainty)
     True
     """
@@ -167,15 +167,15 @@ def confidence(
     skipped = getattr(run, "skipped", None)
     if errors is None:
         errors = np.asarray(present(run, "error"))
-    record = record_of(run, regressors, gamma, initial_covariance)
-    error = _errors(record, errors)
+    trajectory = trajectory_of(run, regressors, gamma, initial_covariance)
+    error = _errors(trajectory, errors)
     used = np.isfinite(error)
     if skipped is not None:
-        used &= (np.asarray(skipped)[record.first :] == 0)[:, np.newaxis, np.newaxis]
-    warm_up = 5 * record.parameters + 20 if warm_up is None else whole("warm_up", warm_up, 1)
-    fixed = _fixed_covariance(record)
-    spread = _innovation(record, record.prior)
-    fixed_spread = _innovation(record, fixed[:-1])
+        used &= (np.asarray(skipped)[trajectory.first :] == 0)[:, np.newaxis, np.newaxis]
+    warm_up = 5 * trajectory.parameters + 20 if warm_up is None else whole("warm_up", warm_up, 1)
+    fixed = _fixed_covariance(trajectory)
+    spread = _innovation(trajectory, trajectory.prior)
+    fixed_spread = _innovation(trajectory, fixed[:-1])
     variance, fixed_variance = (
         _noise(error**2 / each[:, :, np.newaxis], used, noise_variance, warm_up)
         for each in (spread, fixed_spread)
@@ -187,7 +187,7 @@ def confidence(
         level,
         variance,
         fixed_variance,
-        _root(np.diagonal(record.after, axis1=1, axis2=2), variance),
+        _root(np.diagonal(trajectory.after, axis1=1, axis2=2), variance),
         _root(np.diagonal(fixed[1:], axis1=1, axis2=2), fixed_variance),
         quantile * _root(spread, variance),
         quantile * _root(fixed_spread, fixed_variance),
@@ -196,24 +196,24 @@ def confidence(
     )
 
 
-def _errors(record: Record, errors: ArrayLike) -> Array:
+def _errors(trajectory: Trajectory, errors: ArrayLike) -> Array:
     """Errors as (T, rows, targets)."""
     values = numbers("errors", errors)
-    samples = record.samples + record.first
+    samples = trajectory.samples + trajectory.first
     if values.ndim == 1:
         values = values[:, np.newaxis]
     if values.ndim == 2:
         values = values[:, :, np.newaxis]
-    if values.ndim != 3 or values.shape[:2] != (samples, record.rows):
-        raise refuse("errors", values.shape, f"shape {(samples, record.rows)} or with targets")
-    return values[record.first :]
+    if values.ndim != 3 or values.shape[:2] != (samples, trajectory.rows):
+        raise refuse("errors", values.shape, f"shape {(samples, trajectory.rows)} or with targets")
+    return values[trajectory.first :]
 
 
-def _innovation(record: Record, covariance: Array) -> Array:
+def _innovation(trajectory: Trajectory, covariance: Array) -> Array:
     """Diagonal of Γ + φ P φᵀ for each sample, (T, rows)."""
-    root = np.linalg.cholesky(record.weight)
-    phi = root @ record.phibar
-    gamma = np.diagonal(record.weight, axis1=1, axis2=2)
+    root = np.linalg.cholesky(trajectory.weight)
+    phi = root @ trajectory.phibar
+    gamma = np.diagonal(trajectory.weight, axis1=1, axis2=2)
     added = np.einsum("tpi,tij,tpj->tp", phi, covariance, phi)
     return np.asarray(gamma + added, dtype=np.float64)
 
@@ -234,12 +234,12 @@ def _noise(squares: Array, used: NDArray[np.bool_], given: float | None, warm_up
     return before
 
 
-def _fixed_covariance(record: Record) -> Array:
+def _fixed_covariance(trajectory: Trajectory) -> Array:
     """C_0 ... C_T, the covariance of the error for fixed parameters, σ² apart."""
-    path = np.empty((record.samples + 1, record.parameters, record.parameters))
-    path[0] = record.before[0]
-    gains = np.einsum("tij,tpj->tip", record.after, record.phibar)
-    moves = np.eye(record.parameters) - gains @ record.phibar
+    path = np.empty((trajectory.samples + 1, trajectory.parameters, trajectory.parameters))
+    path[0] = trajectory.before[0]
+    gains = np.einsum("tij,tpj->tip", trajectory.after, trajectory.phibar)
+    moves = np.eye(trajectory.parameters) - gains @ trajectory.phibar
     fresh = gains @ np.swapaxes(gains, 1, 2)
     for k, (move, noise) in enumerate(zip(moves, fresh, strict=True)):
         path[k + 1] = move @ path[k] @ move.T + noise

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -56,11 +57,11 @@ class Excitation:
     total : (n,)
         Information of the whole record along each direction.
     content : (T, n)
-        ‖φ̄_k u_i‖: what sample k says along each direction (the norm of col_i(ψ_k),
+        ‖φ̄_k u_i‖: content of sample k along each direction (the norm of col_i(ψ_k),
         Goel et al. eq. (55), here along fixed directions; `information_content` has
         the moving ones).
-    spectrum : Spectrum
-        Power of each regressor over frequency.
+    phibar : (T, rows, n)
+        The weighted regressors.
     """
 
     window: int
@@ -74,7 +75,12 @@ class Excitation:
     directions: Array = field(repr=False)
     total: Array = field(repr=False)
     content: Array = field(repr=False)
-    spectrum: Spectrum = field(repr=False)
+    phibar: Array = field(repr=False)
+
+    @cached_property
+    def spectrum(self) -> Spectrum:
+        """Power of each regressor over frequency; needs SciPy."""
+        return spectrum(self.phibar)
 
     @property
     def alpha(self) -> float:
@@ -114,7 +120,7 @@ class Excitation:
 
     @property
     def silent_subspace(self) -> Array:
-        """Basis (n, n - r) of the directions the record says nothing about."""
+        """Basis (n, n - r) of the directions the record does not inform about."""
         return self.directions[:, self.rich :]
 
     def to_dict(self) -> dict[str, Any]:
@@ -194,7 +200,7 @@ def excitation(
         directions=directions,
         total=np.maximum(total[::-1], 0.0),
         content=np.linalg.norm(phibar @ directions, axis=1),
-        spectrum=spectrum(phibar),
+        phibar=phibar,
     )
 
 

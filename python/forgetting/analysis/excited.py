@@ -1,12 +1,12 @@
-"""What the last samples tell: how many directions, and which parameters, all along a record.
+"""How many directions the last samples excite, and which parameters, all along a record.
 
 Information is counted in units of the record's own, so that units of the regressors do not matter:
 with M the mean of φ̄ᵀφ̄ over the record and S_k that over the last N samples,
 
     M^{-1/2} S_k M^{-1/2} = Σ μ v vᵀ             μ = 1: as much as the record on the average
 
-    v is excited where μ >= share; parameter i is told of where the directions that are not excited
-    bring no more than a tenth of what the whole record leaves open, (M⁻¹)_ii = Σ (M^{-1/2} v)_i².
+    v is excited where μ >= share; parameter i is informed where the directions that are not excited
+    make up no more than a tenth of its variance over the record, (M⁻¹)_ii = Σ (M^{-1/2} v)_i².
 """
 
 from __future__ import annotations
@@ -21,14 +21,15 @@ from .information import weighted
 from .validation import Array, real, whole
 
 #: Directions of the scaled regressors below this share of the largest are rounding.
-NOTHING = 1e-12
-#: Part of a parameter's (M⁻¹)_ii that directions may bring without its belonging to them.
-PART = 0.1
+ROUNDING = 1e-12
+#: A parameter counts as informed while the unexcited directions make up no more than this share
+#: of its (M⁻¹)_ii.
+UNEXCITED_SHARE = 0.1
 
 
 @dataclass(frozen=True, eq=False)
 class Excited:
-    """What the last samples tell, all along a record. See `excited`.
+    """What the last samples excite, all along a record. See `excited`.
 
     Attributes
     ----------
@@ -36,26 +37,27 @@ class Excited:
         Samples that were looked at.
     rank : (K,) int
         Directions that the N samples up to each excite.
-    told : (K, n) bool
-        Parameters that they tell of.
+    informed : (K, n) bool
+        Parameters that they inform about.
     window : int
         N.
     share : float
+        Part of the record's mean information from which on a direction counts as excited.
     """
 
     samples: NDArray[np.int64]
     rank: NDArray[np.int64]
-    told: NDArray[np.bool_] = field(repr=False)
+    informed: NDArray[np.bool_] = field(repr=False)
     window: int
     share: float
 
     @property
     def parameters(self) -> int:
-        """n."""
-        return int(self.told.shape[1])
+        """Number n of parameters."""
+        return int(self.informed.shape[1])
 
     @property
-    def everything(self) -> float:
+    def fully_excited(self) -> float:
         """Part of the record in which all directions are excited."""
         return float((self.rank == self.parameters).mean())
 
@@ -76,9 +78,9 @@ class Excited:
         return {
             "window": self.window,
             "share": self.share,
-            "everything": self.everything,
+            "fully_excited": self.fully_excited,
             "longest_silence": {"sample": first, "samples": length},
-            "told": self.told.mean(axis=0).tolist(),
+            "informed": self.informed.mean(axis=0).tolist(),
         }
 
 
@@ -89,7 +91,7 @@ def excited(
     share: float = 0.01,
     most: int = 1000,
 ) -> Excited:
-    """Say along a record what the last N samples tell.
+    """Find along a record what the last N samples excite.
 
     Parameters
     ----------
@@ -116,9 +118,9 @@ def excited(
     >>> phi[::2, 1] *= -1
     >>> phi[50:, 1] = 0.0  # the second regressor falls silent
     >>> found = excited(phi, window=10)
-    >>> found.rank[[40, 58, 59, 99]].tolist(), found.told[99].tolist()
+    >>> found.rank[[40, 58, 59, 99]].tolist(), found.informed[99].tolist()
     ([2, 2, 1, 1], [True, False])
-    >>> found.everything, found.longest_silence()
+    >>> found.fully_excited, found.longest_silence()
     (0.58, (59, 41))
     """
     phibar = weighted(regressors, gamma)
@@ -131,22 +133,23 @@ def excited(
     whole_record = np.square(root).sum(axis=1)
     turned = phibar @ root
     rank = np.empty(len(chosen), dtype=np.int64)
-    told = np.empty((len(chosen), n), dtype=bool)
+    informed = np.empty((len(chosen), n), dtype=bool)
     for place, k in enumerate(chosen):
         part = turned[max(0, k - window + 1) : k + 1]
         values, vectors = np.linalg.eigh(np.einsum("tpi,tpj->ij", part, part) / window)
         silent = values < share
         rank[place] = np.count_nonzero(~silent)
-        told[place] = np.square(root @ vectors[:, silent]).sum(axis=1) <= PART * whole_record
-    return Excited(chosen, rank, told & ~never, window, share)
+        unexcited = np.square(root @ vectors[:, silent]).sum(axis=1)
+        informed[place] = unexcited <= UNEXCITED_SHARE * whole_record
+    return Excited(chosen, rank, informed & ~never, window, share)
 
 
 def _root(phibar: Array) -> tuple[Array, NDArray[np.bool_]]:
-    """M^{-1/2} (n, r) on the r directions that the record excites, and what is in the others."""
+    """M^{-1/2} (n, r) on the r directions ever excited, and the parameters outside them (n,)."""
     size = np.sqrt(np.einsum("tpi,tpi->i", phibar, phibar) / len(phibar))
     scale = 1 / np.where(size > 0, size, 1.0)
     mean = np.einsum("tpi,tpj->ij", phibar, phibar) / len(phibar)
     values, vectors = np.linalg.eigh(mean * scale[:, np.newaxis] * scale)
-    known = values > NOTHING * max(float(values[-1]), 1.0)
-    never = np.square(vectors[:, ~known]).sum(axis=1) > PART
+    known = values > ROUNDING * max(float(values[-1]), 1.0)
+    never = np.square(vectors[:, ~known]).sum(axis=1) > UNEXCITED_SHARE
     return scale[:, np.newaxis] * vectors[:, known] / np.sqrt(values[known]), never

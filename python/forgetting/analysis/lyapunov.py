@@ -16,7 +16,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .record import Record
+from .trajectory import Trajectory
 from .validation import Array, numbers, real, refuse, stack, whole
 
 
@@ -56,24 +56,24 @@ def lyapunov_decrease(alpha: float, beta: float, b: float, window: int) -> float
     return alpha / window / (1 + gain) / (1 + (window - 1) / 2 * gain**2)
 
 
-def observed_decrease(record: Record, window: int) -> Array:
+def observed_decrease(trajectory: Trajectory, window: int) -> Array:
     """Return the smallest eigenvalue of Δ^N V_k for each start k, (T - window + 1,), 1/θ².
 
     Never under c_N when the conditions hold; usually far above. O(T window n³).
     """
-    window = whole("window", window, 1, record.samples)
-    starts = record.samples - window + 1
-    root = np.linalg.cholesky(record.before[:starts])
+    window = whole("window", window, 1, trajectory.samples)
+    starts = trajectory.samples - window + 1
+    root = np.linalg.cholesky(trajectory.before[:starts])
     # In the coordinates x = C z with P_k = C Cᵀ every product stays of order one.
     moved = root
     for step in range(window):
-        phibar = record.phibar[step : step + starts]
-        gain = np.einsum("tij,tpj->tip", record.after[step : step + starts], phibar)
+        phibar = trajectory.phibar[step : step + starts]
+        gain = np.einsum("tij,tpj->tip", trajectory.after[step : step + starts], phibar)
         moved = moved - gain @ (phibar @ moved)
-    last = np.linalg.cholesky(record.after[window - 1 :])
+    last = np.linalg.cholesky(trajectory.after[window - 1 :])
     kept = np.linalg.solve(last, moved)
-    share = np.eye(record.parameters) - np.swapaxes(kept, 1, 2) @ kept
-    back = np.linalg.solve(root, np.broadcast_to(np.eye(record.parameters), root.shape))
+    share = np.eye(trajectory.parameters) - np.swapaxes(kept, 1, 2) @ kept
+    back = np.linalg.solve(root, np.broadcast_to(np.eye(trajectory.parameters), root.shape))
     least: Array = np.linalg.eigvalsh(np.swapaxes(back, 1, 2) @ share @ back)[:, 0]
     return least
 

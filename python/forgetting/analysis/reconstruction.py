@@ -1,10 +1,10 @@
-"""P̄ recomputed from what is left after the measurement, where a run did not record it.
+"""P̄ recomputed from P after the measurement, where a run did not record it.
 
 By the inversion lemma, with c = P₊ φ̄ᵀ,
 
     P̄ = P₊ + c (I - φ̄ c)⁻¹ cᵀ
 
-c and φ̄ c are sums that can cancel: in a covariance that has wound up they keep no digit.
+c and φ̄ c are sums that can cancel: in a covariance that has wound up no digit of them is right.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ AMPLIFICATION = 64.0
 def prior_covariance(
     phibar: Array, path: Array, precision: float
 ) -> tuple[Array, NDArray[np.bool_]]:
-    """Return P̄_k (T, n, n), and where it could be told from rounding (T,).
+    """Return P̄_k (T, n, n), and where it is more than rounding (T,).
 
-    Where it could not, P_k itself stands in: the least that a proper rule leaves.
+    Where it is not, P_k takes its place: with a proper rule P̄_k >= P_k.
 
     Parameters
     ----------
@@ -64,8 +64,8 @@ def roundoffs(phibar: Array, after: Array, scale: Array, spread: Array) -> Array
         Norm of the inverse root of P_k scaled to a unit diagonal.
     """
     size = np.einsum("tij,tpj->tpi", np.abs(after), np.abs(phibar))
-    told = np.einsum("tpi,tij,tqj->tpq", phibar, after, phibar)
-    left = np.linalg.eigvalsh(np.eye(phibar.shape[1]) - told)[:, 0]
+    leverage = np.einsum("tpi,tij,tqj->tpq", phibar, after, phibar)
+    left = np.linalg.eigvalsh(np.eye(phibar.shape[1]) - leverage)[:, 0]
     left = np.maximum(left, np.finfo(float).eps)
     inner = _magnitude(phibar, after) / left
     outer = np.linalg.norm(size / scale[:, np.newaxis, :], axis=(1, 2)) * spread / np.sqrt(left)

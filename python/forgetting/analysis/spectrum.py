@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike
 
+from forgetting.extras import extra
+
 from .information import weighted
 from .validation import Array, whole
 
@@ -60,6 +62,13 @@ def spectrum(
     -------
     Spectrum
 
+    Raises
+    ------
+    InvalidInput
+        For a wrong shape, or a segment out of range.
+    ImportError
+        Without SciPy.
+
     Examples
     --------
     >>> import numpy as np
@@ -68,17 +77,18 @@ def spectrum(
     0.125
     """
     phibar = weighted(regressors, gamma)
-    samples, _, n = phibar.shape
+    samples = len(phibar)
     if samples < 2:
-        return Spectrum(np.zeros(1), np.einsum("tpi,tpi->i", phibar, phibar)[None], 1)
+        return Spectrum(np.zeros(1), np.mean(phibar**2, axis=1), 1)
     length = min(samples, 1024) if segment is None else whole("segment", segment, 2, samples)
-    taper = np.sin(np.pi * (np.arange(length) + 0.5) / length) ** 2
-    starts = range(0, samples - length + 1, max(1, length // 2))
-    power = np.zeros((length // 2 + 1, n))
-    for start in starts:
-        part = phibar[start : start + length] * taper[:, np.newaxis, np.newaxis]
-        power += np.mean(np.abs(np.fft.rfft(part, axis=0)) ** 2, axis=1)
-    power[1 : (length + 1) // 2] *= 2.0  # negative frequencies; Nyquist stands alone
-    scale = len(starts) * length * float(taper @ taper)
-    frequencies = np.arange(length // 2 + 1) / length
-    return Spectrum(frequencies, power / scale, len(starts))
+    signal = extra("scipy.signal", "a spectrum")
+    frequencies, density = signal.welch(
+        phibar, nperseg=length, noverlap=length - hop(length), detrend=False, axis=0
+    )
+    segments = (samples - length) // hop(length) + 1
+    return Spectrum(frequencies, np.mean(density, axis=1) / length, segments)
+
+
+def hop(length: int) -> int:
+    """Samples from one segment to the next: half of its length."""
+    return max(1, length // 2)

@@ -1,4 +1,4 @@
-"""Theorem 2 of Lai and Bernstein: what the conditions that hold say about the error.
+"""Theorem 2 of Lai and Bernstein: what follows for the error from the conditions that hold.
 
 The statements are about the error θ̃ without noise and with fixed parameters. The
 conditions are sufficient: where one fails the conclusion does not follow, which is not to
@@ -135,9 +135,9 @@ def stability(found: Conditions) -> Stability:
     Examples
     --------
     >>> import numpy as np
-    >>> from forgetting.analysis import Record, conditions
-    >>> record = Record.from_arrays(np.ones((40, 1)), np.full((41, 1, 1), 0.5))
-    >>> print(stability(conditions(record)).conclusions[0])
+    >>> from forgetting.analysis import Trajectory, conditions
+    >>> trajectory = Trajectory.from_arrays(np.ones((40, 1)), np.full((41, 1, 1), 0.5))
+    >>> print(stability(conditions(trajectory)).conclusions[0])
     The error is Lyapunov stable: an error that starts small stays small (A1, A2 hold).
     """
     conclusions = tuple(_conclude(found, *item) for item in CONCLUSIONS)
@@ -149,7 +149,7 @@ def stability(found: Conditions) -> Stability:
     if conclusions[3].outcome == "follows":
         contraction = math.sqrt(max(0.0, 1 - known["a"] * decrease))
     try:
-        observed: Array | None = observed_decrease(found.record, found.window)
+        observed: Array | None = observed_decrease(found.trajectory, found.window)
     except np.linalg.LinAlgError:  # a P that rounding left indefinite
         observed = None
     return Stability(conclusions, decrease, contraction, observed, found.window)

@@ -1,7 +1,7 @@
 """Does a bound drift? The trend of a positive series, with its significance.
 
-A finite record always has a largest and a smallest eigenvalue. What tells a bound from
-the end of a climb is whether the extremes keep moving. The second half of the record is
+A finite record always has a largest and a smallest eigenvalue. A bound differs from
+the end of a climb in that the extremes stop moving. The second half of the record is
 cut into blocks longer than the memory of the estimator where the record allows it, the
 extreme of each block is taken, and Kendall's rank test asks whether their order could be
 chance; the slope is Theil and Sen's median of all pairs.
@@ -11,13 +11,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .validation import Array, numbers, real, refuse
+from forgetting.extras import extra
+
+from .validation import numbers, real, refuse
 
 #: Share of the record, at its end, in which the trend is looked for (the start is transient).
 TAIL = 0.5
@@ -53,19 +54,19 @@ class Trend:
     blocks: int
 
     @property
-    def known(self) -> bool:
+    def decidable(self) -> bool:
         """True when the record is long enough to tell."""
         return self.blocks >= FEWEST
 
     @property
     def rises(self) -> bool:
         """True when the series drifts upwards."""
-        return self.known and self.significance < LEVEL and self.factor > FACTOR
+        return self.decidable and self.significance < LEVEL and self.factor > FACTOR
 
     @property
     def falls(self) -> bool:
         """True when the series drifts downwards."""
-        return self.known and self.significance < LEVEL and self.factor < 1 / FACTOR
+        return self.decidable and self.significance < LEVEL and self.factor < 1 / FACTOR
 
     def to_dict(self) -> dict[str, Any]:
         """Return the fields, ready for JSON."""
@@ -98,6 +99,13 @@ def trend(
     -------
     Trend
 
+    Raises
+    ------
+    InvalidInput
+        For a series that is not one-dimensional and positive, or a memory below 1.
+    ImportError
+        Without SciPy.
+
     Examples
     --------
     >>> import numpy as np
@@ -120,28 +128,11 @@ def trend(
     length = tail.size // count
     blocks = tail[tail.size - count * length :].reshape(count, length)
     levels = blocks.max(axis=1) if extreme == "largest" else blocks.min(axis=1)
-    slope, score = _theil_sen(levels)
+    stats = extra("scipy.stats", "the trend of a bound")
+    order = np.arange(count)
+    slope = float(stats.theilslopes(levels, order).slope)
+    # Without a tie the probability is exact; blocks that are all alike have none: no trend.
+    chance = float(stats.kendalltau(order, levels).pvalue)
+    significance = 1.0 if math.isnan(chance) else min(chance, 1.0)
     factor = math.exp(min(slope * count, 700.0))
-    return Trend(slope / length, _kendall(abs(score), count), factor, count)
-
-
-def _theil_sen(levels: Array) -> tuple[float, int]:
-    """Median slope over all pairs, and Kendall's S (concordant minus discordant pairs)."""
-    first, second = np.triu_indices(levels.size, k=1)
-    rise = levels[second] - levels[first]
-    return float(np.median(rise / (second - first))), int(np.sign(rise).sum())
-
-
-@lru_cache
-def _kendall(score: int, count: int) -> float:
-    """Probability of |S| >= score for a random order of `count` numbers, exactly.
-
-    The number of orders with i inversions is the coefficient of x^i in
-    Π_{j=1}^{count} (1 + x + ... + x^{j-1}), and S = count (count - 1)/2 - 2 i.
-    """
-    chance = np.ones(1)
-    for j in range(1, count + 1):
-        chance = np.convolve(chance, np.ones(j) / j)
-    pairs = count * (count - 1) // 2
-    scores = pairs - 2 * np.arange(pairs + 1)
-    return float(min(1.0, chance[np.abs(scores) >= score].sum()))
+    return Trend(slope / length, significance, factor, count)

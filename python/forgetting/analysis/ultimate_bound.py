@@ -206,9 +206,9 @@ def ultimate_bound(
     norm = None if error is None else _norm(error)
     reason = _applies(found, known)
     if reason is not None:
-        nothing = Amplification(math.inf, math.inf, math.inf)
-        everything = (math.inf, math.inf, math.inf)
-        return UltimateBound(*everything, nothing, math.inf, known, norm, reason)
+        unbounded = (math.inf, math.inf, math.inf)
+        factor = Amplification(*unbounded)
+        return UltimateBound(*unbounded, factor, math.inf, known, norm, reason)
     bounds = (known["a"], known["b"], known["alpha"], known["beta"])
     factor = amplification(*bounds, int(known["window"]))
     noise = math.sqrt(known["regressor_noise"]) * known["parameter_norm"]

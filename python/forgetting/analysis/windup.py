@@ -1,15 +1,15 @@
-"""Windup: P grows where nothing is learnt.
+"""Windup: P grows along directions that receive no information.
 
     A direction has wound up when its variance is more than ten times what it was when it
     last received information, it receives none now, and the rule sets it no bound.
 
 "Receives information" is measured against what P claims: with S the information of the
 last `window` samples and x a direction scaled to one standard deviation (P = Σ x xᵀ), the
-share μ = xᵀ S x says by how many noise variances the window could tell that the parameters
-moved by one standard deviation. μ < `share` is no information. The pairs (μ, x) are the
+share μ = xᵀ S x is the squared change of the predictions in the window, in noise variances, when
+the parameters move by x. μ < `share` is no information. The pairs (μ, x) are the
 eigenpairs of S in the metric of P, so none of this depends on the units of the parameters.
 
-The reference B keeps, for each direction, the variance at the last information. With x_E
+The reference B is, along each direction, the variance when it was last informed. With x_E
 the informed directions, x_Z the silent ones, y their functionals (yᵢᵀxⱼ = 1 if i = j, else
 0) and P' the covariance after the first sample of the window,
 
@@ -31,8 +31,8 @@ from numpy.typing import ArrayLike, NDArray
 from .ceiling import ceiling_of
 from .direction import describe_direction
 from .information import trailing_information
-from .record import Record, record_of
 from .root import square_root
+from .trajectory import Trajectory, trajectory_of
 from .validation import Array, positive_matrix, real, refuse, whole
 
 DEFINITION = (
@@ -59,7 +59,7 @@ class Windup:
     direction : (n,) or None
         Unit vector that has wound up most.
     informed : int or None
-        Last sample that told anything along that direction; None if none ever did.
+        Last sample that informed about that direction; None if none did.
     samples : (E,) int
         Samples examined.
     path : (E,)
@@ -125,7 +125,7 @@ def windup(
 
     Parameters
     ----------
-    run : Run or Record
+    run : Run or Trajectory
         A Run needs ``outputs=(..., "covariance")``.
     regressors, gamma, initial_covariance : optional
         As given to the run.
@@ -135,8 +135,7 @@ def windup(
     factor : float > 1
         Growth of the variance that is windup.
     share : float in (0, 1]
-        Share of its own variance a direction must be able to tell in a window to count as
-        informed.
+        A direction is informed where its μ in the window is at least this.
     ceiling : scalar, (n,) or (n, n), optional
         The bound that the rule sets, such as the covariance a resetting rule returns to;
         growth up to it is not windup.
@@ -153,67 +152,67 @@ def windup(
     Examples
     --------
     >>> import numpy as np
-    >>> from forgetting.analysis import Record
+    >>> from forgetting.analysis import Trajectory
     >>> variance = np.concatenate([np.ones(60), 0.9 ** -np.arange(41.0)])
     >>> phi = np.repeat([[0.5], [0.0]], [60, 40], axis=0)
-    >>> found = windup(Record.from_arrays(phi, variance[:, None, None]), window=5)
+    >>> found = windup(Trajectory.from_arrays(phi, variance[:, None, None]), window=5)
     >>> found.occurred, found.sample, found.informed
     (True, 81, 59)
     """
-    record = record_of(run, regressors, gamma, initial_covariance)
-    window = _memory(record) if window is None else whole("window", window, 1)
+    trajectory = trajectory_of(run, regressors, gamma, initial_covariance)
+    window = _memory(trajectory) if window is None else whole("window", window, 1)
     factor = real("factor", factor, 1.0, float("inf"), open_low=True)
     share = real("share", share, 0.0, 1.0, open_low=True)
-    top = None if rule is None else ceiling_of(rule, record.parameters)
+    top = None if rule is None else ceiling_of(rule, trajectory.parameters)
     if ceiling is not None:
-        top = positive_matrix("ceiling", ceiling, record.parameters)
-    spacing = max(1, min(window // 2, record.samples // EXAMINED))
+        top = positive_matrix("ceiling", ceiling, trajectory.parameters)
+    spacing = max(1, min(window // 2, trajectory.samples // EXAMINED))
     if stride is not None:
         spacing = whole("stride", stride, 1)
-    chosen = np.arange(_finite(record) - 1, -1, -spacing)[::-1]
-    path, directions = _follow(record, chosen, window, share, top)
-    return _summary(record, chosen, path, directions, window, factor, share)
+    chosen = np.arange(_finite(trajectory) - 1, -1, -spacing)[::-1]
+    path, directions = _follow(trajectory, chosen, window, share, top)
+    return _summary(trajectory, chosen, path, directions, window, factor, share)
 
 
-def _memory(record: Record) -> int:
+def _memory(trajectory: Trajectory) -> int:
     """The memory of the run in samples, within reason."""
-    longest = max(2 * record.parameters, record.samples // 4)
-    rate = record.forgetting_factor
+    longest = max(2 * trajectory.parameters, trajectory.samples // 4)
+    rate = trajectory.forgetting_factor
     if rate is None or not np.isfinite(rate).any():
-        return min(longest, 20 * record.parameters)
+        return min(longest, 20 * trajectory.parameters)
     forgotten = 1.0 - float(np.nanmedian(rate))
-    return int(np.clip(np.ceil(1 / max(forgotten, 1e-9)), 2 * record.parameters, longest))
+    return int(np.clip(np.ceil(1 / max(forgotten, 1e-9)), 2 * trajectory.parameters, longest))
 
 
-def _finite(record: Record) -> int:
-    """Samples before the covariance is no longer a number; `conditions` says where that is."""
-    fine = np.isfinite(record.before) & np.isfinite(record.after)
+def _finite(trajectory: Trajectory) -> int:
+    """Number of samples before the first covariance that is not finite."""
+    fine = np.isfinite(trajectory.before) & np.isfinite(trajectory.after)
     lost = np.flatnonzero(~fine.all(axis=(1, 2)))
     if lost.size and lost[0] == 0:
         raise refuse("covariance", "not finite from the first sample", "finite numbers")
-    return int(lost[0]) if lost.size else record.samples
+    return int(lost[0]) if lost.size else trajectory.samples
 
 
 def _follow(
-    record: Record, chosen: NDArray[np.int64], window: int, share: float, top: Array | None
+    trajectory: Trajectory, chosen: NDArray[np.int64], window: int, share: float, top: Array | None
 ) -> tuple[Array, Array]:
     """Carry the reference B along the record; return growth and its direction."""
-    mu, moves, reads = _shares(record, chosen, window)
+    mu, moves, reads = _shares(trajectory, chosen, window)
     path = np.ones(len(chosen))
-    directions = np.zeros((len(chosen), record.parameters))
-    reference = record.before[0]
+    directions = np.zeros((len(chosen), trajectory.parameters))
+    reference = trajectory.before[0]
     for step, (shares, x, y) in enumerate(zip(mu, moves, reads, strict=True)):
         silent = shares < share
         start = int(chosen[step]) - window + 1
-        recent = record.after[start] if start >= 0 else record.before[0]
+        recent = trajectory.after[start] if start >= 0 else trajectory.before[0]
         fresh, turn = _clipped(y[~silent] @ recent @ y[~silent].T)
-        kept = x[:, ~silent] @ turn
+        informed = x[:, ~silent] @ turn
         held, turn = _clipped(y[silent] @ reference @ y[silent].T)
         spread, readings = x[:, silent] @ turn, turn.T @ y[silent]
         for value, move, reading in zip(held, spread.T, readings, strict=True):
             if 1 / value > path[step] and _above(reading, top):
                 path[step], directions[step] = 1 / value, move
-        reference = (kept * fresh) @ kept.T + (spread * held) @ spread.T
+        reference = (informed * fresh) @ informed.T + (spread * held) @ spread.T
     return path, directions
 
 
@@ -230,19 +229,21 @@ def _clipped(matrix: Array) -> tuple[Array, Array]:
     return np.clip(values, np.finfo(float).tiny, 1.0), vectors
 
 
-def _shares(record: Record, chosen: NDArray[np.int64], window: int) -> tuple[Array, Array, Array]:
+def _shares(
+    trajectory: Trajectory, chosen: NDArray[np.int64], window: int
+) -> tuple[Array, Array, Array]:
     """Eigenpairs of the window's information in the metric of P: μ, x (columns), y (rows)."""
     parts = []
-    for first, sums in trailing_information(record.phibar, window):
+    for first, sums in trailing_information(trajectory.phibar, window):
         inside = chosen[(chosen >= first) & (chosen < first + len(sums))]
         parts.append(sums[inside - first])
-    root, inverse = square_root(record.after[chosen], record.precision)
+    root, inverse = square_root(trajectory.after[chosen], trajectory.precision)
     mu, turn = np.linalg.eigh(np.swapaxes(root, 1, 2) @ np.concatenate(parts) @ root)
     return mu, root @ turn, np.swapaxes(turn, 1, 2) @ inverse
 
 
 def _summary(
-    record: Record,
+    trajectory: Trajectory,
     chosen: NDArray[np.int64],
     path: Array,
     directions: Array,
@@ -252,13 +253,15 @@ def _summary(
 ) -> Windup:
     found = path > factor
     worst = int(path.argmax())
-    samples = chosen + record.first
+    samples = chosen + trajectory.first
     if not found.any():
         growth = float(path[worst])
         return Windup(False, None, False, growth, None, None, samples, path, window, factor, share)
     x = directions[worst]
-    seen = np.linalg.norm(record.phibar[: chosen[worst] + 1] @ x, axis=1) ** 2 >= share
-    informed = record.first + int(np.flatnonzero(seen)[-1]) if seen.any() else None
+    informative = np.linalg.norm(trajectory.phibar[: chosen[worst] + 1] @ x, axis=1) ** 2 >= share
+    informed = (
+        trajectory.first + int(np.flatnonzero(informative)[-1]) if informative.any() else None
+    )
     return Windup(
         True,
         int(samples[found.argmax()]),

@@ -12,9 +12,9 @@ from forgetting.cli.certify import certify
 from forgetting.cli.compare import compare
 from forgetting.cli.demo import demo
 from forgetting.cli.identify import identify
+from forgetting.cli.reproduce import reproduce
 from forgetting.cli.rules import rules
-from forgetting.papers.command import reproduce
-from forgetting.record.errors import RecordError
+from forgetting.words.errors import RecordError
 
 BAD = 2
 """Exit code for bad use and bad data."""

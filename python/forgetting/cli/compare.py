@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 import typer
@@ -14,9 +14,11 @@ from forgetting.cli.identify import check_targets, parse_covariance, parse_order
 from forgetting.cli.progress import progress_bar
 from forgetting.cli.rulebook import about, make_rule
 from forgetting.cli.tables import console, print_written, table
-from forgetting.record.errors import RecordError
-from forgetting.record.identification import Identification
-from forgetting.record.rounding import brief
+from forgetting.words.errors import RecordError
+from forgetting.words.rounding import brief
+
+if TYPE_CHECKING:
+    from forgetting.record import Identification
 
 MEANING = (
     "Each prediction is made before its sample is learned. Left out: samples that were missing, "

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from forgetting.cli.tables import console, print_written, table
-from forgetting.record.errors import RecordError
+from forgetting.words.errors import RecordError
 
 NAMES = ("solar", "cycling")
 

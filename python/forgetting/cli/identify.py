@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -12,8 +12,10 @@ from forgetting.cli import options
 from forgetting.cli.progress import progress_bar
 from forgetting.cli.rulebook import make_gate, make_rule
 from forgetting.cli.tables import print_identification, print_written
-from forgetting.record.errors import RecordError
-from forgetting.record.identification import Identification
+from forgetting.words.errors import RecordError
+
+if TYPE_CHECKING:
+    from forgetting.record import Identification
 
 
 def identify(
@@ -77,14 +79,17 @@ def show(found: Identification, written: list[Path], as_json: bool) -> None:
 def write(
     found: Identification, report: Path | None, estimates: Path | None, plot: Path | None
 ) -> list[Path]:
-    """Write what was asked for."""
-    for path, save in (
-        (report, found.save_report),
-        (estimates, found.save_estimates),
-        (plot, found.save_plot),
-    ):
-        if path is not None:
-            save(path)
+    """Write what was asked for; pages and pictures are loaded only then."""
+    if report is not None:
+        from forgetting.report import save
+
+        save(found, report)
+    if estimates is not None:
+        found.save_estimates(estimates)
+    if plot is not None:
+        from forgetting.plot import save_overview
+
+        save_overview(found, plot)
     return [path for path in (report, estimates, plot) if path is not None]
 
 

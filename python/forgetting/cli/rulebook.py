@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from typing import Any
 
 import forgetting as fg
-from forgetting.record.columns import suggestion
-from forgetting.record.errors import RecordError
+from forgetting.words.errors import RecordError
+from forgetting.words.suggestion import suggestion
 
 
 def make_rule(
@@ -35,7 +35,7 @@ def make_rule(
 
 
 def make_gate(text: str | None) -> Any:
-    """Make the gate that ``name:parameter=value,...`` says; None for none."""
+    """Make the gate of ``name:parameter=value,...``; None without a gate."""
     if text is None:
         return None
     name, _, settings = text.partition(":")
@@ -53,7 +53,7 @@ def make_gate(text: str | None) -> Any:
 
 
 def about(name: str) -> Mapping[str, Any]:
-    """What the registry says of a rule."""
+    """The registry's entry of a rule."""
     known: dict[str, Mapping[str, Any]] = {each["name"]: each for each in fg.rules()}
     if name in known:
         return known[name]

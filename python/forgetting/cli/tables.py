@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from rich import box
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from forgetting.record.identification import Identification
-from forgetting.record.rounding import brief, with_error
+from forgetting.words.rounding import brief, with_error
+
+if TYPE_CHECKING:
+    from forgetting.record import Identification
 
 
 def console() -> Console:

@@ -6,7 +6,6 @@ the Belgian Ardennes). How the track becomes regressors stands in `forgetting.de
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -15,10 +14,10 @@ import forgetting as fg
 from forgetting.demo.cycling_page import TITLE, page, shown
 from forgetting.demo.outcome import Outcome
 from forgetting.demo.packaged import locate
-from forgetting.demo.physics import Rider, rider
+from forgetting.demo.physics import Result, rider
 from forgetting.demo.ride import energy_balance
 from forgetting.demo.tcx import read_tcx
-from forgetting.record import Identification, identify, read
+from forgetting.record import identify, read
 from forgetting.record.read import Record
 from forgetting.report import save, write
 
@@ -26,14 +25,6 @@ FORMULA = "power ~ 0 + energy_rate + weight_speed + speed_cubed"
 MEMORY = 0.99
 """Forgetting factor: a memory of about 100 windows, 50 minutes."""
 CITATION = "activity_4078723797.tcx (sweat 0.25.0)"
-
-
-@dataclass(frozen=True)
-class Result:
-    """One rule's identification and the physics it implies."""
-
-    found: Identification
-    rider: Rider
 
 
 def cycling(folder: Path) -> Outcome:

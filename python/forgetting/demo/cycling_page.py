@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from markupsafe import Markup
 from matplotlib import pyplot as plt
 
 from forgetting import plot
-from forgetting.demo.physics import Estimate, air_density
+from forgetting.demo.physics import Estimate, Result, air_density
 from forgetting.plot.style import BLUE, GREEN, VERMILLION
-from forgetting.record.rounding import brief, with_error
 from forgetting.report.page import Block, Figure, Page, Table
 from forgetting.report.svg import inline
-
-if TYPE_CHECKING:
-    from forgetting.demo.cycling import Result
+from forgetting.words.rounding import brief, with_error
 
 COLOURS = {"none": GREEN, "exponential": VERMILLION, "subspace": BLUE}
 AXES = ("m (kg)", "Crr · m (kg)", "k = ½ ρ CdA (kg/m)")
@@ -39,7 +34,7 @@ of them or slows by more than 0.4 m/s² (braking cannot be told from coasting), 
 at this window length; the opposite regression, energy on power, errs to the other side and gives
 about 100 kg. Wind and drivetrain losses are not in the model. Air density {density:.3f} kg/m³,
 standard atmosphere at {altitude:.0f} m."""
-Results = dict[str, "Result"]
+Results = dict[str, Result]
 
 
 def page(results: Results, altitude: float) -> Page:

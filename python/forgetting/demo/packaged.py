@@ -5,7 +5,7 @@ from __future__ import annotations
 from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 
-from forgetting.record.errors import RecordError
+from forgetting.words.errors import RecordError
 
 
 def locate(package: str, version: str, path: str) -> Path:

@@ -1,4 +1,4 @@
-"""From regression parameters to the quantities a cyclist knows, with propagated errors."""
+"""From regression parameters to mass, rolling resistance and drag, with propagated errors."""
 
 from __future__ import annotations
 
@@ -38,6 +38,14 @@ class Rider:
     mass: Estimate
     rolling: Estimate
     drag_area: Estimate
+
+
+@dataclass(frozen=True)
+class Result:
+    """One rule's identification and the physics it implies."""
+
+    found: Identification
+    rider: Rider
 
 
 def air_density(altitude: float) -> float:

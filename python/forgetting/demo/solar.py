@@ -21,11 +21,11 @@ import forgetting as fg
 from forgetting.demo.outcome import Outcome
 from forgetting.demo.packaged import locate
 from forgetting.demo.solar_page import REGULAR, TITLE, page, widest
-from forgetting.demo.windup import save_windup
+from forgetting.demo.windup_picture import save_windup
 from forgetting.record import Identification, identify, read
 from forgetting.record.read import Record
-from forgetting.record.rounding import brief
 from forgetting.report import save, write
+from forgetting.words.rounding import brief
 
 FORMULA = "dc_power ~ 0 + poa + poa:t_module"
 MEMORY = 0.7

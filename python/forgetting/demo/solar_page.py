@@ -6,13 +6,13 @@ from markupsafe import Markup
 from matplotlib import pyplot as plt
 
 from forgetting import plot
-from forgetting.demo.windup import windup
+from forgetting.demo.windup_picture import windup
 from forgetting.plot.style import BLUE, FAINT, GREEN, VERMILLION, legend_above
 from forgetting.plot.timeline import label_time, timeline
 from forgetting.record import Identification
-from forgetting.record.rounding import brief
 from forgetting.report.page import Block, Figure, Page, Table
 from forgetting.report.svg import inline
+from forgetting.words.rounding import brief
 
 DAY = 96
 """Samples in a day."""

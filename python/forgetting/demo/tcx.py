@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from forgetting.record.errors import RecordError
+from forgetting.words.errors import RecordError
 
 FIELDS = {"Time": "time", "AltitudeMeters": "altitude", "Speed": "speed", "Watts": "power"}
 """Elements of a track point and the columns they become: m, m/s, W."""

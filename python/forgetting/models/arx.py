@@ -7,17 +7,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-import forgetting as fg
+from forgetting._core import RLS, InvalidInput
+from forgetting.models.channels import channels, paired
+from forgetting.models.constructor import Constructor
 from forgetting.models.lags import regressors
 from forgetting.models.orders import Orders
-from forgetting.models.parameters import Parameters
-from forgetting.models.signals import channels, paired
 from forgetting.models.simulation import free_run
 
 Array = NDArray[np.float64]
 
 
-class ARX(Parameters):
+class ARX(Constructor):
     """AutoRegressive model with eXogenous inputs, y(k) = phi(k) theta + noise.
 
     The regressor is equations (1)-(2) of Zhu, Yu and Wan (2022):
@@ -104,7 +104,7 @@ class ARX(Parameters):
         """
         inputs, outputs = paired(u, y)
         orders = self._orders(inputs)
-        estimator = fg.RLS(
+        estimator = RLS(
             orders.regressors(outputs.shape[1], inputs.shape[1]),
             rule=self.rule,
             targets=outputs.shape[1],
@@ -172,7 +172,7 @@ class ARX(Parameters):
         orders = Orders(self.na, self.nb, self.nk)
         if (orders.nb > 0) != (inputs.shape[1] > 0):
             given = f"{inputs.shape[1]} input(s)"
-            raise fg.InvalidInput(f"nb is {orders.nb} but u has {given}; nb = 0 goes with u = None")
+            raise InvalidInput(f"nb is {orders.nb} but u has {given}; nb = 0 goes with u = None")
         return orders
 
     def _learn(
@@ -203,14 +203,14 @@ class ARX(Parameters):
             ("y", outputs.shape[1], self.n_outputs_),
         ):
             if given != expected:
-                raise fg.InvalidInput(f"{name} has {given} channels; the model has {expected}")
+                raise InvalidInput(f"{name} has {given} channels; the model has {expected}")
 
     def _theta(self) -> Array:
         return np.asarray(self.estimator_.theta, dtype=np.float64).reshape(-1, self.n_outputs_)
 
     def _check_is_fitted(self) -> None:
         if not hasattr(self, "estimator_"):
-            raise fg.InvalidInput("this ARX has seen no data; call fit or partial_fit first")
+            raise InvalidInput("this ARX has seen no data; call fit or partial_fit first")
 
     @property
     def theta_(self) -> Array:

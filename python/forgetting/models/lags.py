@@ -53,9 +53,9 @@ def regressors(u: Array, y: Array, orders: Orders) -> Array:
 
 
 def delayed(signal: Array, lag: int) -> Array:
-    """Shift (T, c) down by `lag` rows; what enters from above is unknown, hence NaN."""
+    """Shift (T, c) down by `lag` rows; the first `lag` rows are NaN."""
     shifted = np.full_like(signal, np.nan)
-    shifted[lag:] = signal[: len(signal) - lag]
+    shifted[lag:] = signal[: max(len(signal) - lag, 0)]
     return shifted
 
 

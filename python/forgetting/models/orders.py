@@ -6,7 +6,7 @@ import operator
 from dataclasses import dataclass
 from typing import SupportsIndex
 
-import forgetting as fg
+from forgetting._core import InvalidInput
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class Orders:
         for name in ("na", "nb", "nk"):
             object.__setattr__(self, name, whole(name, getattr(self, name)))
         if self.na + self.nb == 0:
-            raise fg.InvalidInput("na and nb are both 0; an ARX model needs na + nb >= 1")
+            raise InvalidInput("na and nb are both 0; an ARX model needs na + nb >= 1")
 
     @property
     def reach(self) -> int:
@@ -63,5 +63,5 @@ def whole(name: str, value: SupportsIndex) -> int:
     except TypeError:
         number = -1
     if number < 0:
-        raise fg.InvalidInput(f"{name} is {value!r}; it must be a whole number >= 0")
+        raise InvalidInput(f"{name} is {value!r}; it must be a whole number >= 0")
     return number

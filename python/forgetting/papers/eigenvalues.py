@@ -21,7 +21,7 @@ SWEEPS = 30
 """More than any matrix needs; the loop stops at the sweep that turns nothing."""
 
 
-def spectrum(upper: Array, diagonal: Array) -> tuple[Array, Array]:
+def eigenpairs(upper: Array, diagonal: Array) -> tuple[Array, Array]:
     """Eigenvalues, descending, and eigenvectors of a stack of U diag(d) Uᵀ.
 
     Parameters
@@ -39,7 +39,7 @@ def spectrum(upper: Array, diagonal: Array) -> tuple[Array, Array]:
 
     Examples
     --------
-    >>> values, _ = spectrum(np.array([[[1.0, 1.0], [0.0, 1.0]]]), np.array([[1e40, 1.0]]))
+    >>> values, _ = eigenpairs(np.array([[[1.0, 1.0], [0.0, 1.0]]]), np.array([[1e40, 1.0]]))
     >>> values.round(6).tolist()
     [[1e+40, 1.0]]
     """

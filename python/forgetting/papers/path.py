@@ -1,4 +1,4 @@
-"""What an estimator went through on a record: θ at every sample, P at chosen ones."""
+"""Estimates of an estimator on a record: θ after every sample, P after chosen ones."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 import forgetting as fg
 
-from .eigenvalues import spectrum
+from .eigenvalues import eigenpairs
 
 Array = NDArray[Any]
 
@@ -97,7 +97,7 @@ def follow(
         kept.append(est.factor())
     error = np.concatenate([np.asarray(run.error) for run in runs])
     upper, diagonal = (np.stack(parts) for parts in zip(*kept, strict=True))
-    values, vectors = spectrum(upper, diagonal)
+    values, vectors = eigenpairs(upper, diagonal)
     covariance = np.einsum("tij,tj,tkj->tik", upper, diagonal, upper)
     return Path(
         np.concatenate([theta[np.newaxis], *(run.theta for run in runs)]),

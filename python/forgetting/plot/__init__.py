@@ -1,28 +1,50 @@
-"""Pictures of an identification, on Matplotlib axes.
+"""Pictures of an identification and of its analysis, on Matplotlib axes.
 
 Every function takes the axes to draw on (or makes them) and returns them. Colours are the
 colour-blind safe set of Okabe and Ito (2008). Long records are thinned to what a screen can show,
 keeping the extremes of every stretch. Needs ``pip install 'forgetting[cli]'``.
+
+An `Identification` is drawn by `prediction`, `error`, `parameter`, `eigenvalues`,
+`forgetting_factor`, `rank`, `excited` and `alarms`; `overview` puts them into one picture. What
+`forgetting.analysis` found is drawn by the function of the same name: `excitation`, `content`,
+`spectrum`, `conditions`, `stability`, `ultimate_bound`, `guaranteed_bounds`, `windup`,
+`confidence`; an `Excited` by `excited_directions` and `excited_parameters`.
 """
 
-from forgetting.plot.covariance import eigenvalues, forgetting_factor
+from forgetting.plot.bars import bars, excited_directions, excited_parameters
+from forgetting.plot.covariance import eigenvalues, forgetting_factor, guaranteed_bounds, windup
+from forgetting.plot.intervals import confidence
 from forgetting.plot.overview import overview, save_overview
 from forgetting.plot.parameters import parameter
+from forgetting.plot.regressors import content, excitation, spectrum
 from forgetting.plot.signals import error, prediction
 from forgetting.plot.style import PALETTE, styled
+from forgetting.plot.theorems import conditions, stability, ultimate_bound
 from forgetting.plot.trust import alarms, excited, rank
 
 __all__ = [
     "PALETTE",
     "alarms",
+    "bars",
+    "conditions",
+    "confidence",
+    "content",
     "eigenvalues",
     "error",
+    "excitation",
     "excited",
+    "excited_directions",
+    "excited_parameters",
     "forgetting_factor",
+    "guaranteed_bounds",
     "overview",
     "parameter",
     "prediction",
     "rank",
     "save_overview",
+    "spectrum",
+    "stability",
     "styled",
+    "ultimate_bound",
+    "windup",
 ]

@@ -1,16 +1,30 @@
-"""How fast the rule forgets, and how far the covariance has moved."""
+"""How fast the rule forgets, how far P has moved, and where it wound up."""
 
 from __future__ import annotations
 
 import numpy as np
 from matplotlib.axes import Axes
 
-from forgetting.analysis.plot import bounds
+from forgetting.analysis import Guarantee, Windup
 from forgetting.plot import thinning
-from forgetting.plot.style import BLUE, FAINT, GREEN, PURPLE, VERMILLION, axes_or_new, legend_above
+from forgetting.plot.bars import shade
+from forgetting.plot.style import (
+    BLUE,
+    FAINT,
+    GREEN,
+    ORANGE,
+    PURPLE,
+    VERMILLION,
+    axes_or_new,
+    labelled,
+    legend_above,
+)
 from forgetting.plot.timeline import label_time, timeline
 from forgetting.record.identification import Identification
 from forgetting.record.trace import USED
+
+NEAR = 1e3
+"""A bound further beyond the range of the axes than this factor would flatten what they show."""
 
 
 def eigenvalues(found: Identification, ax: Axes | None = None) -> Axes:
@@ -25,7 +39,7 @@ def eigenvalues(found: Identification, ax: Axes | None = None) -> Axes:
         ax.plot(times, values[:, 0], color=BLUE, label="smallest")
     ax.set_yscale("log")
     ax.set_ylabel("eigenvalues of P")
-    bounds(found.guarantee, ax)
+    guaranteed_bounds(found.guarantee, ax)
     label_time(ax, x, label)
     legend_above(ax, len(ax.get_legend_handles_labels()[0]))
     return ax
@@ -51,4 +65,26 @@ def forgetting_factor(found: Identification, ax: Axes | None = None) -> Axes:
     ax.set_ylabel("forgetting factor")
     label_time(ax, x, label)
     legend_above(ax, 2)
+    return ax
+
+
+def windup(found: Windup, ax: Axes | None = None) -> Axes:
+    """Draw how far the variance of silent directions has grown, and where that is windup."""
+    ax = labelled(ax, "growth since last informed", "sample")
+    ax.semilogy(found.samples, found.path, color=BLUE)
+    ax.axhline(found.factor, color=VERMILLION, ls="--", lw=0.9, label="windup above")
+    shade(ax, found.samples, found.path > found.factor, ORANGE, "windup")
+    ax.legend()
+    return ax
+
+
+def guaranteed_bounds(found: Guarantee, ax: Axes) -> Axes:
+    """Draw the bounds that the rule guarantees, where they are near what the axes show."""
+    low, high = ax.get_ylim()
+    for value, colour, label in (
+        (found.upper, VERMILLION, "guaranteed upper bound"),
+        (found.lower, BLUE, "guaranteed lower bound"),
+    ):
+        if value is not None and low / NEAR < value < high * NEAR:
+            ax.axhline(value, color=colour, ls="--", lw=1.0, label=label)
     return ax

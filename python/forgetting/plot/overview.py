@@ -11,8 +11,8 @@ from forgetting.plot.covariance import eigenvalues, forgetting_factor
 from forgetting.plot.parameters import parameter
 from forgetting.plot.signals import error, prediction
 from forgetting.plot.style import styled
-from forgetting.record.errors import RecordError
 from forgetting.record.identification import Identification
+from forgetting.words.errors import RecordError
 
 SHOWN = 12
 """Parameters drawn at most; beyond this a picture is no overview."""

@@ -60,6 +60,14 @@ def axes_or_new(ax: Axes | None) -> Axes:
     return plt.subplots(figsize=(9, 3), layout="constrained")[1] if ax is None else ax
 
 
+def labelled(ax: Axes | None, ylabel: str, xlabel: str) -> Axes:
+    """Return `ax`, or new axes, with these labels."""
+    ax = axes_or_new(ax)
+    ax.set_xlabel(xlabel)
+    ax.set_ylabel(ylabel)
+    return ax
+
+
 def legend_above(ax: Axes, entries: int) -> None:
     """Put the legend above the axes on the right, where it hides no data."""
     ax.legend(

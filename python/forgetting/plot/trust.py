@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.axes import Axes
 
-from forgetting.analysis import plot as analysis
+from forgetting.plot.bars import bars, excited_directions, excited_parameters
 from forgetting.plot.style import ORANGE, PURPLE, SKY, VERMILLION, axes_or_new
 from forgetting.plot.timeline import label_time, timeline
 from forgetting.record.identification import Identification
@@ -16,17 +16,17 @@ def rank(found: Identification, ax: Axes | None = None) -> Axes:
     """Draw how many directions the samples in the rule's memory excite, over time."""
     ax = axes_or_new(ax)
     x, label = timeline(found)
-    analysis.rank(found.excited, ax, x)
+    excited_directions(found.excited, ax, x)
     label_time(ax, x, label)
     return ax
 
 
 def excited(found: Identification, ax: Axes | None = None, most: int = 24) -> Axes:
-    """Draw a bar for each parameter while the samples in the rule's memory tell of it."""
+    """Draw a bar for each parameter while the samples in the rule's memory excite it."""
     ax = axes_or_new(ax)
     x, label = timeline(found)
-    analysis.excited(found.excited, ax, found.samples.regressors, x, most)
-    ax.set_title("Parameters that they tell of")
+    excited_parameters(found.excited, ax, found.samples.regressors, x, most)
+    ax.set_title("Parameters that they excite")
     label_time(ax, x, label)
     return ax
 
@@ -45,7 +45,7 @@ def alarms(found: Identification, ax: Axes | None = None) -> Axes:
         "frozen by the gate": (trace.gate == FROZEN, SKY),
     }
     shown = {name: row for name, row in rows.items() if name == "windup" or np.any(row[0])}
-    analysis.strips(
+    bars(
         {name: where for name, (where, _) in shown.items()},
         ax,
         x,

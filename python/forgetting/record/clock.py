@@ -13,7 +13,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from forgetting.record.columns import resolve
-from forgetting.record.errors import RecordError
+from forgetting.words.errors import RecordError
 
 TIME_NAME = re.compile(r"(time|timestamp|date|datetime|date_time)([ _.\[(].*)?$", re.IGNORECASE)
 GAP = 1.5
@@ -104,12 +104,12 @@ def parse(column: pd.Series, formats: Sequence[dict[str, Any]] = FORMATS) -> pd.
     elif pd.api.types.is_numeric_dtype(column):
         values = column.astype(np.float64)
     else:
-        values = next((each for each in tried(column, formats) if each is not None), None)
+        values = next((each for each in parses(column, formats) if each is not None), None)
     return None if values is None or values.isna().any() else values
 
 
-def tried(column: pd.Series, formats: Sequence[dict[str, Any]]) -> Iterator[pd.Series | None]:
-    """Parse text with one format for the whole column, so 02/03 keeps its meaning throughout."""
+def parses(column: pd.Series, formats: Sequence[dict[str, Any]]) -> Iterator[pd.Series | None]:
+    """Parse text by each format in turn; one format holds for the whole column, 02/03 included."""
     for options in formats:
         try:
             with warnings.catch_warnings():
@@ -122,7 +122,7 @@ def tried(column: pd.Series, formats: Sequence[dict[str, Any]]) -> Iterator[pd.S
 
 
 def example(column: pd.Series) -> str:
-    """Show the first cell that is no time."""
+    """Name the first cell that is no time, for an error."""
     for row, cell in enumerate(column, start=1):
         if parse(pd.Series([cell])) is None:
             return f"row {row} is {cell!r}"
@@ -130,7 +130,7 @@ def example(column: pd.Series) -> str:
 
 
 def check_increasing(values: pd.Series, column: str, source: str) -> None:
-    """Refuse time that stands still or runs backwards, and say where."""
+    """Refuse time that does not increase; the error names the row."""
     bad = np.flatnonzero(~(values.diff().iloc[1:] > values.iloc[0] - values.iloc[0]))
     if len(bad):
         row = int(bad[0]) + 2

@@ -2,44 +2,20 @@
 
 from __future__ import annotations
 
-import difflib
-
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from forgetting.record.errors import RecordError
-
-LISTED = 12
-"""How many column names an error lists when none is close."""
+from forgetting.words.errors import RecordError
+from forgetting.words.suggestion import suggestion
 
 
 def resolve(frame: pd.DataFrame, name: str, source: str) -> str:
-    """Return `name` when the table has it, else say what there is."""
+    """Return `name` when the table has it; the error otherwise lists the columns there are."""
     if name in frame.columns:
         return name
     among = suggestion([str(column) for column in frame.columns], name, "its columns are")
     raise RecordError(f"{source} has no column {name!r}{among}")
-
-
-def suggestion(known: list[str], name: str, otherwise: str) -> str:
-    """End of a sentence that names what the user may have meant.
-
-    Examples
-    --------
-    >>> suggestion(["voltage", "current"], "Voltag", "there are")
-    "; close are 'voltage'"
-    >>> suggestion(["voltage", "current"], "x", "there are")
-    "; there are 'voltage', 'current'"
-    """
-    lower = {column.lower(): column for column in known}
-    close = difflib.get_close_matches(name.lower(), lower, n=3, cutoff=0.55)
-    contained = [column for column in lower if name.lower() in column and column not in close]
-    matches = [lower[match] for match in (close + contained)[:3]]
-    if matches and len(name) > 1:
-        return f"; close are {', '.join(map(repr, matches))}"
-    more = f" and {len(known) - LISTED} more" if len(known) > LISTED else ""
-    return f"; {otherwise} {', '.join(map(repr, known[:LISTED]))}{more}"
 
 
 def numbers(frame: pd.DataFrame, name: str, source: str) -> NDArray[np.float64]:

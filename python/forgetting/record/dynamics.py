@@ -10,9 +10,9 @@ import numpy as np
 from forgetting.models.lags import Array, names, regressors
 from forgetting.models.orders import Orders
 from forgetting.record.columns import numbers
-from forgetting.record.errors import RecordError
 from forgetting.record.read import Record
 from forgetting.record.samples import Samples
+from forgetting.words.errors import RecordError
 
 
 def dynamics(
@@ -37,10 +37,10 @@ def dynamics(
     y = columns(record, outputs)
     u = columns(record, inputs)
     phi = np.vstack([regressors(u[part], y[part], orders) for part in stretches(record)])
-    said = f"ARX({orders.na},{orders.nb},{orders.nk}) of {', '.join(outputs)}"
-    said += f" on {', '.join(inputs)}" if inputs else ""
+    model = f"ARX({orders.na},{orders.nb},{orders.nk}) of {', '.join(outputs)}"
+    model += f" on {', '.join(inputs)}" if inputs else ""
     labels = tuple(names(outputs, inputs, orders))
-    return Samples(phi, y, labels, tuple(outputs), said, record.clock, record.name).check()
+    return Samples(phi, y, labels, tuple(outputs), model, record.clock, record.name).check()
 
 
 def checked_orders(arx: Sequence[int], inputs: Sequence[str]) -> Orders:
@@ -59,7 +59,7 @@ def checked_orders(arx: Sequence[int], inputs: Sequence[str]) -> Orders:
 
 
 def refuse_repeats(outputs: Sequence[str], inputs: Sequence[str]) -> None:
-    """Refuse a column named twice: its parameters could not be told apart."""
+    """Refuse a column named twice: its parameters could not be separated."""
     named = [*outputs, *inputs]
     for name in named:
         if named.count(name) > 1:

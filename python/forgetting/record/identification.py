@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -13,32 +14,27 @@ from numpy.typing import NDArray
 
 from forgetting.analysis import Excited, Guarantee, excited, guaranteed_bounds
 from forgetting.record import estimates
+from forgetting.record.counts import Counts
 from forgetting.record.samples import Samples
 from forgetting.record.scores import Scores
-from forgetting.record.trace import (
-    DEAD_ZONE,
-    FROZEN,
-    HELD,
-    MISSING,
-    USED,
-    WITHIN_BOUND,
-    Trace,
-)
+from forgetting.record.trace import USED
 from forgetting.record.uncertainty import noise_variance, standard_errors
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Identification:
+class Identification(Counts):
     """The result of `forgetting.record.identify`.
+
+    `forgetting.report.save` writes it as a page, `forgetting.plot.save_overview` as a picture.
 
     Attributes
     ----------
-    samples : Samples
-        Regressors and outputs as they entered the estimator.
     trace : Trace
         Estimates, errors and covariance over time.
+    samples : Samples
+        Regressors and outputs as they entered the estimator.
     rule : Rule
         The forgetting rule.
     scores : Scores
@@ -50,7 +46,6 @@ class Identification:
     """
 
     samples: Samples
-    trace: Trace
     rule: Any
     scores: Scores
     verdicts: list[str]
@@ -91,48 +86,6 @@ class Identification:
             for i, name in enumerate(self.samples.regressors)
         ]
 
-    @property
-    def used(self) -> int:
-        """Samples the estimate learned from."""
-        return int((self.trace.skipped == USED).sum())
-
-    @property
-    def missing(self) -> int:
-        """Samples skipped because a value was missing or a lag crossed a gap."""
-        return int((self.trace.skipped == MISSING).sum())
-
-    @property
-    def dead_zone(self) -> int:
-        """Samples skipped because they carried too little information."""
-        return int((self.trace.skipped == DEAD_ZONE).sum())
-
-    @property
-    def within_bound(self) -> int:
-        """Samples skipped because their error was within the rule's bound on the noise."""
-        return int((self.trace.skipped == WITHIN_BOUND).sum())
-
-    @property
-    def held(self) -> int:
-        """Samples that the gate held: neither forgotten nor learned from."""
-        return int((self.trace.skipped == HELD).sum())
-
-    @property
-    def frozen(self) -> int:
-        """Samples that the gate froze: learned from, while nothing was forgotten."""
-        return int((self.trace.gate == FROZEN).sum())
-
-    def left_out(self) -> str:
-        """Samples that were not used, in words, and those that were frozen."""
-        counts = [
-            (self.missing, "missing"),
-            (self.dead_zone, "in the dead zone"),
-            (self.within_bound, "within the bound on the noise"),
-            (self.held, "held by the gate"),
-            (self.frozen, "frozen by the gate"),
-        ]
-        always = counts[:2]
-        return ", ".join(f"{n} {words}" for n, words in counts if n or (n, words) in always)
-
     @cached_property
     def guarantee(self) -> Guarantee:
         """Bounds of P that the rule guarantees, for regressors and rates as in this record."""
@@ -149,7 +102,7 @@ class Identification:
 
     @cached_property
     def excited(self) -> Excited:
-        """What the samples within the rule's memory tell, all along the record."""
+        """What the samples within the rule's memory excite, all along the record."""
         used = self.trace.skipped == USED
         forgotten = 1.0 - float(np.median(self.trace.forgetting_factor[used])) if used.any() else 0
         total, n = self.samples.phi.shape
@@ -163,26 +116,40 @@ class Identification:
         smallest, largest = self.trace.eigenvalues[-1][[0, -1]]
         return float(largest / smallest) if smallest > 0 else float("inf")
 
-    def summary(self) -> dict[str, Any]:
-        """Everything `forgetting identify` prints, as plain numbers and text for JSON."""
-        return estimates.summary(self)
-
     def estimates(self) -> pd.DataFrame:
         """Every sample's estimate, error and prediction, as a table of T rows."""
-        return estimates.table(self)
+        return estimates.table(self.samples, self.trace, self.prediction, self.standard_error)
 
     def save_estimates(self, path: str | Path) -> None:
         """Write `estimates` as Parquet or CSV, by suffix."""
-        estimates.save(self, Path(path))
+        estimates.save(self.estimates(), Path(path))
 
-    def save_report(self, path: str | Path) -> None:
-        """Write one self-contained HTML page; needs jinja2 and matplotlib."""
-        from forgetting.report import save
+    def summary(self) -> dict[str, Any]:
+        """What `forgetting identify` prints, for JSON: None where a number is not finite."""
+        rows = self.parameters.to_dict("records")
+        ends = self.trace.eigenvalues[-1]
+        found = {
+            "record": self.samples.source,
+            "model": self.samples.model,
+            "rule": repr(self.rule),
+            "parameters": rows,
+            "rmse": self.scores.by_output(self.samples.outputs),
+            "samples": self.counts() | {"scored": self.scores.samples},
+            "covariance": {
+                "smallest_eigenvalue": float(ends[0]),
+                "largest_eigenvalue": float(ends[-1]),
+                "ratio": self.covariance_ratio,
+            },
+            "windup_samples": int(self.trace.windup.sum()),
+            "verdicts": self.verdicts,
+        }
+        return dict(finite(found))
 
-        save(self, path)
 
-    def save_plot(self, path: str | Path) -> None:
-        """Write the overview picture, PNG, SVG or PDF by suffix; needs matplotlib."""
-        from forgetting.plot import save_overview
-
-        save_overview(self, path)
+def finite(value: Any) -> Any:
+    """The value, all it contains included, with None in place of NaN and infinity."""
+    if isinstance(value, dict):
+        return {key: finite(each) for key, each in value.items()}
+    if isinstance(value, list):
+        return [finite(each) for each in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value

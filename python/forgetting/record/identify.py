@@ -4,25 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import pandas as pd
 from numpy.typing import ArrayLike
 
 import forgetting as fg
 from forgetting.record.dynamics import dynamics
-from forgetting.record.errors import RecordError
-from forgetting.record.excitation import verdicts
 from forgetting.record.identification import Identification
 from forgetting.record.read import Record, read
 from forgetting.record.samples import Samples
 from forgetting.record.scores import score
 from forgetting.record.trace import Progress, errors_without_forgetting, run
+from forgetting.record.verdicts import verdicts
+from forgetting.words.errors import RecordError
+
+if TYPE_CHECKING:
+    from narwhals.typing import IntoDataFrame
 
 
 def identify(
-    record: str | Path | pd.DataFrame | Record,
+    record: str | Path | IntoDataFrame | Record,
     *,
     formula: str | None = None,
     output: str | Sequence[str] = (),
@@ -39,7 +41,7 @@ def identify(
 
     Parameters
     ----------
-    record : path, DataFrame or Record
+    record : path, data frame or Record
         See `forgetting.record.read`.
     formula : str, optional
         A regression such as ``"power ~ 0 + sun + sun:warmth"``; ``lag(x, k)`` is x, k rows ago.

@@ -1,23 +1,20 @@
-"""Read a measured record from CSV or Parquet."""
+"""A measured record: read from a file, or taken from a data frame of any library."""
 
 from __future__ import annotations
 
-import csv
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+import narwhals as nw
 import pandas as pd
 
 from forgetting.record.clock import Clock, find_clock
-from forgetting.record.errors import RecordError
+from forgetting.record.files import load
+from forgetting.words.errors import RecordError
 
-SEPARATORS = ",;\t"
-PARQUET = {".parquet", ".pq"}
-CSV = {".csv", ".tsv", ".txt"}
-OLD = tuple(int(part) for part in pd.__version__.split(".")[:2]) < (3, 1)
-EXACT: dict[str, Any] = {"float_precision": "round_trip"} if OLD else {}
-"""Before pandas 3.1 the default parser could be one bit off; a record must give the same bits."""
+if TYPE_CHECKING:
+    from narwhals.typing import IntoDataFrame
 
 
 @dataclass(frozen=True)
@@ -39,14 +36,15 @@ class Record:
     name: str = field(default="record")
 
 
-def read(source: str | Path | pd.DataFrame | Record, time: str | None = None) -> Record:
+def read(source: str | Path | IntoDataFrame | Record, time: str | None = None) -> Record:
     """Read a record and parse its time column.
 
     Parameters
     ----------
-    source : path, DataFrame or Record
+    source : path, data frame or Record
         A file ending in .csv, .tsv, .txt (separator comma, semicolon or tab, found in the header
-        line; decimal point) or .parquet, .pq; or a table already in memory.
+        line; decimal point) or .parquet, .pq; or a table in memory: a data frame of pandas,
+        Polars, PyArrow or any other library that narwhals knows.
     time : str, optional
         Name of the time column: date-times, or seconds as numbers. Without it a column named
         time, timestamp, date or datetime (a unit may follow, as in ``time_s``) is taken, or else a
@@ -59,14 +57,15 @@ def read(source: str | Path | pd.DataFrame | Record, time: str | None = None) ->
     Raises
     ------
     RecordError
-        When the file is missing, empty, has no rows or cannot be parsed, or time does not increase.
+        When the file is missing, empty, has no rows or cannot be parsed, time does not increase,
+        or the source is something else.
     """
     if isinstance(source, Record):
         return source if time is None else Record(source.frame, clock_of(source, time), source.name)
-    if isinstance(source, pd.DataFrame):
-        record = Record(with_index(source))
+    if isinstance(source, str | Path):
+        record = Record(with_index(load(Path(source))), name=Path(source).name)
     else:
-        record = Record(load(Path(source)), name=Path(source).name)
+        record = Record(with_index(to_pandas(source)))
     check_shape(record)
     return Record(record.frame, clock_of(record, time), record.name)
 
@@ -76,33 +75,14 @@ def clock_of(record: Record, time: str | None) -> Clock | None:
     return find_clock(record.frame, time, record.name)
 
 
-def load(path: Path) -> pd.DataFrame:
-    """Load the file by its suffix."""
-    if not path.exists():
-        raise RecordError(f"there is no file {path}")
-    if path.is_dir():
-        raise RecordError(f"{path} is a folder; name a CSV or Parquet file")
-    if path.stat().st_size == 0:
-        raise RecordError(f"{path} is empty")
-    suffix = path.suffix.lower()
-    if suffix in PARQUET:
-        return load_parquet(path)
-    if suffix in CSV:
-        return load_csv(path)
-    known = ", ".join(sorted(CSV | PARQUET))
-    raise RecordError(f"{path} ends in {suffix or 'nothing'}; known endings are {known}")
-
-
-def load_parquet(path: Path) -> pd.DataFrame:
-    """Read Parquet by pyarrow."""
+def to_pandas(frame: Any) -> pd.DataFrame:
+    """A data frame of any library as one of pandas."""
     try:
-        return with_index(pd.read_parquet(path))
-    except ImportError:
-        raise RecordError(
-            "reading Parquet needs pyarrow; install it with pip install 'forgetting[cli]'"
-        ) from None
-    except (OSError, ValueError) as error:
-        raise RecordError(f"{path} is not a Parquet file: {first_line(error)}") from None
+        table: pd.DataFrame = nw.from_native(frame, eager_only=True).to_pandas()
+    except TypeError:
+        kind = f"{type(frame).__module__}.{type(frame).__name__}"
+        raise RecordError(f"a record is a file or a data frame in memory, but got {kind}") from None
+    return table
 
 
 def with_index(frame: pd.DataFrame) -> pd.DataFrame:
@@ -112,50 +92,7 @@ def with_index(frame: pd.DataFrame) -> pd.DataFrame:
     return frame.reset_index(drop=frame.index.name is None)
 
 
-def load_csv(path: Path) -> pd.DataFrame:
-    """Read CSV, finding the separator in the header line."""
-    try:
-        with path.open(encoding="utf-8-sig", newline="") as stream:
-            header, first = stream.readline(), stream.readline()
-        separator = max(SEPARATORS, key=header.count)
-        check_header(path, cells(header, separator), cells(first, separator))
-        frame: pd.DataFrame = pd.read_csv(
-            path,
-            sep=separator,
-            encoding="utf-8-sig",
-            skipinitialspace=True,
-            low_memory=False,
-            **EXACT,
-        )
-        return frame
-    except UnicodeDecodeError:
-        raise RecordError(f"{path} is not UTF-8 text") from None
-    except (pd.errors.ParserError, pd.errors.EmptyDataError) as error:
-        raise RecordError(f"{path} cannot be read as CSV: {first_line(error)}") from None
-
-
-def cells(line: str, separator: str) -> list[str]:
-    """Split a line of CSV."""
-    return next(csv.reader([line], delimiter=separator, skipinitialspace=True), [])
-
-
-def check_header(path: Path, names: list[str], first: list[str]) -> None:
-    """Refuse what pandas would repair silently: a name twice, rows longer than the header."""
-    twice = next((name for name in names if name and names.count(name) > 1), None)
-    if twice is not None:
-        raise RecordError(f"{path} has two columns named {twice!r}")
-    if len(first) > len(names):
-        raise RecordError(
-            f"{path} has {len(first)} cells in its first row but {len(names)} names in its header"
-        )
-
-
 def check_shape(record: Record) -> None:
     """Refuse a table without rows."""
     if len(record.frame) == 0:
         raise RecordError(f"{record.name} has a header and no rows")
-
-
-def first_line(error: Exception) -> str:
-    """Shorten a library's message to its first line."""
-    return str(error).strip().splitlines()[0].rstrip(".") if str(error).strip() else "unreadable"

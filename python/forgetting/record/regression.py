@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import ast
 import builtins
 import re
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -15,18 +13,19 @@ from formulaic.errors import FormulaicError
 from formulaic.formula import SimpleFormula
 from formulaic.parser.types import Factor
 from formulaic.transforms import TRANSFORMS
+from formulaic.utils.variables import Variable, get_required_variables
 
 from forgetting.record.columns import numbers, resolve
-from forgetting.record.errors import RecordError
-from forgetting.record.read import Record, first_line
+from forgetting.record.files import first_line
+from forgetting.record.read import Record
 from forgetting.record.samples import Samples
+from forgetting.words.errors import RecordError
 
 ANSI = re.compile(r"\x1b\[[0-9;]*m|[⧛⧚]")
 CATEGORICAL = re.compile(r"C\s*\(")
-BACKTICKS = re.compile(r"`([^`]*)`")
-QUOTED = "_quoted_"
 FUNCTIONS = {"lag", *TRANSFORMS, *dir(builtins)}
 """Names that a formula may use without a column of that name."""
+CALLED = {Variable.Role.CALLABLE}
 
 
 def regression(record: Record, formula: str) -> Samples:
@@ -60,7 +59,7 @@ def parse(formula: str) -> Any:
     """Parse a formula with two sides."""
     try:
         parsed = Formula(formula)
-    except FormulaicError as error:
+    except (FormulaicError, SyntaxError) as error:
         raise RecordError(f"the formula {formula!r} cannot be read: {plain(error)}") from None
     sides = [getattr(parsed, side, None) for side in ("lhs", "rhs")]
     if not all(isinstance(side, SimpleFormula) and list(side) for side in sides):
@@ -69,17 +68,22 @@ def parse(formula: str) -> Any:
 
 
 def checked_columns(record: Record, parsed: Any, formula: str) -> pd.DataFrame:
-    """Return the columns that the formula uses, as numbers unless they are categories."""
+    """Return the table; columns that the formula uses are numbers unless they are categories."""
     known = set(map(str, record.frame.columns))
     for factor in factors(parsed):
-        for name in sorted(spoken(factor).called - FUNCTIONS - known):
-            raise RecordError(f"the formula {formula!r} calls {name!r}, an unknown function")
+        functions = {str(name) for name in variables(factor) if name.roles == CALLED}
+        for name in sorted(functions - FUNCTIONS - known):
+            if name.isidentifier():
+                raise RecordError(f"the formula {formula!r} calls {name!r}, an unknown function")
+    used = set().union(*(columns(each, known) for each in factors(parsed)))
+    # What stands only under a method of an expression, (x + z).clip(0), goes along as it was read;
+    # what bears the name of a function must not hide it.
+    others = [name for name in record.frame.columns if name in used or name not in FUNCTIONS]
+    frame = record.frame[others].copy()
     categories = categorical(parsed, known)
-    frame = pd.DataFrame(index=record.frame.index)
-    for name in sorted(set().union(*(columns(each, known) for each in factors(parsed)))):
-        if name in categories:
-            frame[name] = record.frame[resolve(record.frame, name, record.name)]
-        else:
+    for name in sorted(used):
+        resolve(record.frame, name, record.name)
+        if name not in categories:
             frame[name] = numbers(record.frame, name, record.name)
     return frame
 
@@ -89,46 +93,30 @@ def factors(parsed: Any) -> list[Factor]:
     return [factor for side in (parsed.lhs, parsed.rhs) for term in side for factor in term.factors]
 
 
+def variables(factor: Factor) -> set[Variable]:
+    """Names that a factor uses, each with its role.
+
+    The factor's own `required_variables` leaves out all names of formulaic's functions, such as I,
+    which is a current here as often as not.
+    """
+    if factor.eval_method is not Factor.EvalMethod.PYTHON:
+        return set(factor.required_variables)
+    return set(get_required_variables(factor.expr))
+
+
 def columns(factor: Factor, known: set[str]) -> set[str]:
     """Columns that a factor uses.
 
     A name that is both a column and a function of formulaic, such as `I` or `Q`, is the column
-    unless it is called.
+    unless it is called. Of ``x.clip(0)`` the column is x.
     """
+    values = {name for name in variables(factor) if name.roles != CALLED or "." in name}
     if factor.eval_method is Factor.EvalMethod.LOOKUP:
-        return {str(factor.expr)}
-    return {name for name in spoken(factor).named if name in known or name not in FUNCTIONS}
-
-
-@dataclass(frozen=True)
-class Spoken:
-    """Names in a Python expression: those called as functions, and the others."""
-
-    called: set[str]
-    named: set[str]
-
-
-def spoken(factor: Factor) -> Spoken:
-    """Take the names out of a factor that is a Python expression."""
-    if factor.eval_method is not Factor.EvalMethod.PYTHON:
-        return Spoken(set(), set())
-    quoted = BACKTICKS.findall(str(factor.expr))
-    plain_names = iter(range(len(quoted)))
-    text = BACKTICKS.sub(lambda _: f"{QUOTED}{next(plain_names)}", str(factor.expr))
-    try:
-        tree = ast.parse(text, mode="eval")
-    except SyntaxError:
-        # Left to formulaic, which says what is wrong when it evaluates.
-        return Spoken(set(), set())
-    functions = [node.func for node in ast.walk(tree) if isinstance(node, ast.Call)]
-    called = [node for node in functions if isinstance(node, ast.Name)]
-    named = {
-        node.id for node in ast.walk(tree) if isinstance(node, ast.Name) and node not in called
+        return set(map(str, values))
+    roots = {str(name if name in known else name.root) for name in values}
+    return {
+        name for name in roots if name in known or (name.isidentifier() and name not in FUNCTIONS)
     }
-    return Spoken(
-        {node.id for node in called},
-        {quoted[int(name[len(QUOTED) :])] if name.startswith(QUOTED) else name for name in named},
-    )
 
 
 def categorical(parsed: Any, known: set[str]) -> set[str]:

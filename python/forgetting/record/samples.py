@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from forgetting.record.clock import Clock
-from forgetting.record.errors import RecordError
+from forgetting.words.errors import RecordError
 
 Array = NDArray[np.float64]
 
@@ -26,7 +26,7 @@ class Samples:
     regressors, outputs : tuple of str
         Column names; a parameter carries the name of its regressor.
     model : str
-        The model in the words it was asked for.
+        The model as the user wrote it: formula, or orders and columns.
     clock : Clock or None
         Time of each row.
     source : str

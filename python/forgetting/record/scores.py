@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -32,6 +33,17 @@ class Scores:
     last_value: tuple[float, ...]
     no_forgetting: tuple[float, ...]
     samples: int
+
+    def by_output(self, outputs: Sequence[str]) -> dict[str, dict[str, float]]:
+        """The three errors of each output, by name."""
+        return {
+            output: {
+                "model": self.model[j],
+                "last_value": self.last_value[j],
+                "no_forgetting": self.no_forgetting[j],
+            }
+            for j, output in enumerate(outputs)
+        }
 
 
 def score(samples: Samples, error: Array, error_without_forgetting: Array) -> Scores:

@@ -51,7 +51,7 @@ class Trace:
     skipped : ndarray of uint8, shape (T,)
         0 where the sample was used, else the code of the reason, see `forgetting.SKIPPED`.
     gate : ndarray of uint8, shape (T,)
-        Code of what the gate said, see `forgetting.GATE`.
+        Code of the gate's answer, see `forgetting.GATE`.
     windup : ndarray of bool, shape (T,)
         Whether the monitor reported windup.
     variance : ndarray, shape (T, n)

@@ -9,10 +9,10 @@ from matplotlib import pyplot as plt
 
 from forgetting import plot
 from forgetting.record.identification import Identification
-from forgetting.record.rounding import brief, with_error
 from forgetting.report.page import Block, Figure, Page, Table, write
 from forgetting.report.svg import inline
 from forgetting.report.trust import trust
+from forgetting.words.rounding import brief, with_error
 
 DRAWN = 24
 """Parameters drawn per output; the table and the estimates file have them all."""
@@ -150,8 +150,8 @@ def notes() -> Block:
         "do not drift, and does not cover a wrong model or errors correlated in time. A sample "
         "with a missing value, or with a lag across a gap (a step in time above 1.5 median steps), "
         "is skipped; a sample in the dead zone carries less information than the rule's threshold. "
-        "Excited: a direction of which the samples in the rule's memory tell at least 1 % as much "
-        "as the record does on the average. Windup: the variance of a direction grew to more than "
-        "ten times what it was when data last told of it, and none do now.",
+        "Excited: a direction about which the samples in the rule's memory inform at least 1 % as "
+        "much as the record does on average. Windup: the variance of a direction grew to more than "
+        "ten times what it was when data last informed about it, and none do now.",
         folded=True,
     )

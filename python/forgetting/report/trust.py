@@ -63,7 +63,7 @@ def silence(found: Identification) -> str:
     memory = f"the {excited.window} samples of the rule's memory"
     if not length:
         return f"All through the record {memory} excite every direction."
-    share = f"{excited.everything:.0%}" if excited.everything else "no part"
+    share = f"{excited.fully_excited:.0%}" if excited.fully_excited else "no part"
     return (
         f"During {share} of the record {memory} excite every direction; the longest time in which "
         f"they do not begins in row {first + 1} and lasts {length} rows. Where a parameter has no "

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import forgetting as fg
-from forgetting.analysis import Record
+from forgetting.analysis import Trajectory
 
 from ..path import Path, follow
 
@@ -65,10 +65,10 @@ class Course:
         return np.asarray(information[:-1] + self.measured - information[1:])
 
     @property
-    def record(self) -> Record:
+    def trajectory(self) -> Trajectory:
         """For `forgetting.analysis`, which finds P̄ from P and the weighted φ."""
         phi = np.sqrt(self.weight)[:, np.newaxis] * self.phi
-        return Record.from_arrays(phi, self.path.covariance)
+        return Trajectory.from_arrays(phi, self.path.covariance)
 
 
 def course(rule: fg.Rule, phi: Array, y: Array, start: ArrayLike = START) -> Course:

@@ -23,7 +23,7 @@ def classify(name: str, kind: str) -> tuple[dict[str, str], str, float, float]:
     """Verdicts on A1-A4, the strongest conclusion, what is left of ‖θ̃‖, and of the samples."""
     phi, y, theta = data(kind)
     found = course(make(name), phi, y)
-    judged = conditions(found.record, window=WINDOW)
+    judged = conditions(found.trajectory, window=WINDOW)
     verdicts: dict[str, str] = {each.name: each.verdict for each in judged if each.name <= "A4"}
     concluded = stability(judged)
     strongest = next(

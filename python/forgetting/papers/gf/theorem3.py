@@ -24,7 +24,7 @@ def bounded(name: str) -> UltimateBound:
     theta = np.stack([np.cos(DRIFT * k), np.sin(DRIFT * k)], axis=1)
     noise = rng.uniform(-NOISE, NOISE, SAMPLES)
     found = course(make(name, forgetting_factor=0.9), phi, np.sum(phi * theta, axis=1) + noise)
-    judged = conditions(found.record, window=40, true_theta=theta, measurement_noise=noise)
+    judged = conditions(found.trajectory, window=40, true_theta=theta, measurement_noise=noise)
     error = found.path.theta[1:] - theta
     return ultimate_bound(judged, error=error)
 

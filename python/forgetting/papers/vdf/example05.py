@@ -27,7 +27,7 @@ def not_exciting() -> Finding:
 @claim(
     "VDF Figure 4 b)",
     "λ = 1: six singular values of P_k decrease, none exceeds P₀'s",
-    reason="The sixth direction is told 1e-8 a sample; it takes 1e5 samples to see it fall.",
+    reason="The sixth direction receives 1e-8 a sample; it takes 1e5 samples to see it fall.",
 )
 def six_decrease() -> Finding:
     """The other four stay where the start left them."""

@@ -1,4 +1,4 @@
-"""Example 11 and Figure 10: variable-direction forgetting keeps what it is not told anew."""
+"""Example 11 and Figure 10: variable-direction forgetting keeps what no sample renews."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What can be wrong with a record or with the model asked of it."""
+"""What a user can get wrong besides the numbers of an estimator."""
 
 
 class RecordError(ValueError):

@@ -1,16 +1,14 @@
-"""One picture of windup: what two rules know about a gain when nights bring no input."""
+"""One picture of windup: a gain and its standard error under two rules, nights without input."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
-import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from forgetting.plot.bars import shade
 from forgetting.plot.style import BLUE, FAINT, VERMILLION, legend_above, styled
 from forgetting.plot.timeline import label_time, timeline
 from forgetting.record import Identification
@@ -35,7 +33,7 @@ def windup(exponential: Identification, subspace: Identification, rows: slice) -
         2, 1, figsize=(9.4, 5.2), sharex=True, height_ratios=(1, 1.1), layout="constrained"
     )
     for ax in (certainty, estimate):
-        shade(ax, x, sun < NIGHT)
+        shade(ax, x, sun < NIGHT, FAINT)
     lit = sun > DAY
     estimate.plot(x[lit], power[lit] / sun[lit], ".", color=FAINT, ms=4, label="power / irradiance")
     for found, colour, name in (
@@ -63,15 +61,6 @@ def finish(certainty: Axes, estimate: Axes) -> None:
     estimate.set_title("Estimate ± 2 standard errors")
     estimate.set_ylabel("gain (W per W/m²)")
     legend_above(estimate, 1)
-
-
-def shade(ax: Axes, x: NDArray[Any], dark: NDArray[np.bool_]) -> None:
-    """Shade the stretches that are dark."""
-    edges = np.diff(np.concatenate([[0], dark.astype(int), [0]]))
-    starts, stops = np.flatnonzero(edges > 0), np.flatnonzero(edges < 0)
-    ends = np.minimum(stops, len(x) - 1)
-    for start, end in zip(starts, ends, strict=True):
-        ax.axvspan(x[start], x[end], color=FAINT, alpha=0.14, lw=0)
 
 
 def save_windup(

@@ -1,16 +1,16 @@
-"""Constructor parameters the scikit-learn way, without depending on scikit-learn."""
+"""Constructor arguments the scikit-learn way, without depending on scikit-learn."""
 
 from __future__ import annotations
 
 import inspect
 from typing import Any, TypeVar
 
-import forgetting as fg
+from forgetting._core import InvalidInput
 
-Self = TypeVar("Self", bound="Parameters")
+Self = TypeVar("Self", bound="Constructor")
 
 
-class Parameters:
+class Constructor:
     """Read and set the constructor's arguments by name; `clone` of scikit-learn works on it."""
 
     @classmethod
@@ -26,7 +26,7 @@ class Parameters:
         allowed = self._names()
         for name, value in parameters.items():
             if name not in allowed:
-                raise fg.InvalidInput(f"no parameter {name!r}; there are {', '.join(allowed)}")
+                raise InvalidInput(f"no parameter {name!r}; there are {', '.join(allowed)}")
             setattr(self, name, value)
         return self
 

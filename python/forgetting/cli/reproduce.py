@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from forgetting.cli.claims import print_claims
 from forgetting.cli.progress import progress_bar
 from forgetting.cli.tables import console, print_written
 
-from .claim import SEEDS, Check, Claim
+if TYPE_CHECKING:
+    from forgetting.papers import Check, Claim
 
 
 def reproduce(
@@ -22,8 +24,11 @@ def reproduce(
         int | None, typer.Option("--example", help="Only this example of the tutorial (vdf).")
     ] = None,
     seeds: Annotated[
-        int, typer.Option("--seeds", min=2, help="Noise realisations of the opd experiment.")
-    ] = SEEDS,
+        int | None,
+        typer.Option(
+            "--seeds", min=2, help="Noise realisations of the opd experiment; 200 if absent."
+        ),
+    ] = None,
     output: Annotated[
         Path, typer.Option("--output", "-o", help="Folder for what is written; made when absent.")
     ] = Path("forgetting-papers"),
@@ -33,11 +38,13 @@ def reproduce(
     Writes the figures (PNG and SVG), claims.csv and report.html. The exit code is 0 only if every
     claim in the table holds.
     """
-    from .catalogue import all_checks, all_pictures
-    from .page import write_page
-    from .picture import save
-    from .table import print_claims, write_csv
+    from forgetting.papers.catalogue import all_checks, all_pictures
+    from forgetting.papers.claim import SEEDS
+    from forgetting.papers.page import write_page
+    from forgetting.papers.picture import save
+    from forgetting.papers.table import summary, write_csv
 
+    seeds = SEEDS if seeds is None else seeds
     checks, pictures = all_checks(paper, example), all_pictures(paper, example)
     output.mkdir(parents=True, exist_ok=True)
     begin, claims = time.perf_counter(), []
@@ -55,7 +62,7 @@ def reproduce(
     table, page = output / "claims.csv", output / "report.html"
     write_csv(claims, table)
     write_page(claims, checks, pictures, output, page)
-    print_claims(claims, time.perf_counter() - begin)
+    print_claims(claims, f"{summary(claims)}, in {time.perf_counter() - begin:.0f} s")
     print_written([page, table, *files[:1]])
     if len(files) > 1:
         console().print(f"and {len(files) - 1} more figure files beside it")
@@ -64,6 +71,8 @@ def reproduce(
 
 def measured(check: Check, seeds: int) -> Claim:
     """Measure a claim; one that cannot be measured does not hold, and the others go on."""
+    from forgetting.papers import Claim
+
     try:
         return check(seeds)
     except Exception as error:

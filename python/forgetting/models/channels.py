@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-import forgetting as fg
+from forgetting._core import InvalidInput
 
 Array = NDArray[np.float64]
 
@@ -15,14 +15,14 @@ def channels(name: str, values: ArrayLike) -> Array:
     try:
         array = np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError) as error:
-        raise fg.InvalidInput(f"{name} must hold numbers: {error}") from None
+        raise InvalidInput(f"{name} must hold numbers: {error}") from None
     if array.ndim == 1:
         array = array[:, None]
     if array.ndim != 2:
-        raise fg.InvalidInput(f"{name} has shape {array.shape}; it must be (T,) or (T, channels)")
+        raise InvalidInput(f"{name} has shape {array.shape}; it must be (T,) or (T, channels)")
     if np.isinf(array).any():
         row = int(np.argwhere(np.isinf(array))[0][0])
-        raise fg.InvalidInput(f"{name} is infinite in row {row}; it must be finite, or NaN")
+        raise InvalidInput(f"{name} is infinite in row {row}; it must be finite, or NaN")
     return array
 
 
@@ -31,5 +31,5 @@ def paired(u: ArrayLike | None, y: ArrayLike) -> tuple[Array, Array]:
     outputs = channels("y", y)
     inputs = np.empty((len(outputs), 0)) if u is None else channels("u", u)
     if len(inputs) != len(outputs):
-        raise fg.InvalidInput(f"u has {len(inputs)} rows and y has {len(outputs)}; they must match")
+        raise InvalidInput(f"u has {len(inputs)} rows and y has {len(outputs)}; they must match")
     return inputs, outputs

@@ -20,7 +20,7 @@ UNLEARNED = 0.1
 
 
 def verdicts(samples: Samples, trace: Trace, initial_variance: Array) -> list[str]:
-    """Say in sentences what excitation allows to know.
+    """Write in sentences which parameters the record determines.
 
     Parameters
     ----------

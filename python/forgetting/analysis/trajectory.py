@@ -1,4 +1,4 @@
-"""One record of an estimator: regressors with the covariance before and after each step."""
+"""The trajectory of an estimator: regressors with the covariance before and after each step."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .validation import Array, positive_matrix, present, refuse, stack
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Record:
+class Trajectory:
     """What the theory of Lai and Bernstein needs of a run, sample by sample.
 
     Attributes
@@ -26,7 +26,7 @@ class Record:
     first : int
         Sample number of row 0 (1 when the initial covariance was not given).
     precision : float
-        Unit roundoff of the numbers in the record, float32 runs included.
+        Unit roundoff of the numbers, float32 runs included.
     resolved : (T,) bool or None
         Where P̄ was not recorded but recomputed from P_{k+1} and φ: whether rounding left it
         any digit. P_k stands in for it where not.
@@ -70,8 +70,8 @@ class Record:
         prior_covariance: ArrayLike | None = None,
         forgetting: ArrayLike | None = None,
         gamma: ArrayLike | None = None,
-    ) -> Record:
-        """Make a record from arrays.
+    ) -> Trajectory:
+        """Make a trajectory from arrays.
 
         Parameters
         ----------
@@ -94,7 +94,7 @@ class Record:
         Examples
         --------
         >>> import numpy as np
-        >>> Record.from_arrays([[1.0], [1.0]], [[[1.0]], [[0.5]], [[1 / 3]]]).prior.round(9)
+        >>> Trajectory.from_arrays([[1.0], [1.0]], [[[1.0]], [[0.5]], [[1 / 3]]]).prior.round(9)
         array([[[1. ]],
         <BLANKLINE>
                [[0.5]]])
@@ -114,8 +114,8 @@ class Record:
         *,
         gamma: ArrayLike | None = None,
         initial_covariance: ArrayLike | None = None,
-    ) -> Record:
-        """Make a record from the outputs of `RLS.run`.
+    ) -> Trajectory:
+        """Make a trajectory from the outputs of `RLS.run`.
 
         Parameters
         ----------
@@ -127,7 +127,7 @@ class Record:
         gamma : optional
             The weighting given to the run.
         initial_covariance : scalar, (n,) or (n, n), optional
-            P_0. Without it the record starts at sample 1.
+            P_0. Without it the trajectory starts at sample 1.
         """
         phibar = weighted(regressors, gamma)
         phibar = _without_skipped(phibar, getattr(run, "skipped", None))
@@ -156,20 +156,20 @@ class Record:
         )
 
 
-def record_of(
+def trajectory_of(
     run: Any,
     regressors: ArrayLike | None,
     gamma: ArrayLike | None,
     initial_covariance: ArrayLike | None,
-) -> Record:
-    """Return `run` itself if it is a Record, or the record of a Run."""
-    if isinstance(run, Record):
+) -> Trajectory:
+    """Return `run` itself if it is a Trajectory, or the trajectory of a Run."""
+    if isinstance(run, Trajectory):
         if regressors is not None or gamma is not None or initial_covariance is not None:
-            raise refuse("regressors", "given", "nothing beside a Record, which holds them")
+            raise refuse("regressors", "given", "nothing beside a Trajectory, which holds them")
         return run
     if regressors is None:
         raise refuse("regressors", None, "the regressors given to the run")
-    return Record.from_run(run, regressors, gamma=gamma, initial_covariance=initial_covariance)
+    return Trajectory.from_run(run, regressors, gamma=gamma, initial_covariance=initial_covariance)
 
 
 def _without_skipped(phibar: Array, skipped: Any) -> Array:

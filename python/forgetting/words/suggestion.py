@@ -1,0 +1,28 @@
+"""What somebody may have meant by a name that does not exist."""
+
+from __future__ import annotations
+
+import difflib
+
+LISTED = 12
+"""How many names are listed when none is close."""
+
+
+def suggestion(known: list[str], name: str, otherwise: str) -> str:
+    """End of a sentence that names what the user may have meant.
+
+    Examples
+    --------
+    >>> suggestion(["voltage", "current"], "Voltag", "there are")
+    "; close are 'voltage'"
+    >>> suggestion(["voltage", "current"], "x", "there are")
+    "; there are 'voltage', 'current'"
+    """
+    lower = {column.lower(): column for column in known}
+    close = difflib.get_close_matches(name.lower(), lower, n=3, cutoff=0.55)
+    contained = [column for column in lower if name.lower() in column and column not in close]
+    matches = [lower[match] for match in (close + contained)[:3]]
+    if matches and len(name) > 1:
+        return f"; close are {', '.join(map(repr, matches))}"
+    more = f" and {len(known) - LISTED} more" if len(known) > LISTED else ""
+    return f"; {otherwise} {', '.join(map(repr, known[:LISTED]))}{more}"
