@@ -120,11 +120,9 @@ fn update_all<T: Number>(
     skip_missing: bool,
     outputs: &mut Outputs<T>,
 ) -> PyResult<()> {
-    let before = estimator.clone();
-    samples(estimator, phi, y, noise, skip_missing, outputs).map_err(|(sample, error)| {
-        *estimator = before;
-        raise_at(error, Some(sample))
-    })
+    estimator
+        .all_or_nothing(|estimator| samples(estimator, phi, y, noise, skip_missing, outputs))
+        .map_err(|(sample, error)| raise_at(error, Some(sample)))
 }
 
 fn samples<T: Number>(

@@ -3,7 +3,7 @@
 use crate::arrays::{shaped, with_slice, Array};
 use crate::configure::read_sizes;
 use crate::errors::raise;
-use forgetting::Excitation;
+use forgetting::InformationWindow as Window;
 use pyo3::prelude::*;
 
 /// The sum of phi.T @ phi over the last samples, in O(n**2) a sample.
@@ -14,7 +14,7 @@ use pyo3::prelude::*;
 ///     n, the number N of samples, and the rows of each.
 #[pyclass(subclass, module = "forgetting")]
 pub struct InformationWindow {
-    excitation: Excitation<f64>,
+    window: Window<f64>,
     parameters: usize,
 }
 
@@ -25,13 +25,13 @@ impl InformationWindow {
     fn new(parameters: i64, window: i64, rows: i64) -> PyResult<Self> {
         let sizes = [("parameters", parameters), ("window", window), ("rows", rows)];
         let [parameters, window, rows] = read_sizes(sizes)?;
-        let excitation = Excitation::new(parameters, rows, window).map_err(raise)?;
-        Ok(Self { excitation, parameters })
+        let window = Window::new(parameters, rows, window).map_err(raise)?;
+        Ok(Self { window, parameters })
     }
 
     /// Take one sample, whitened: (n,) or (rows, n).
     fn add(&mut self, phi: Array<'_, '_>) -> PyResult<()> {
-        with_slice("phi", phi, |phi| self.excitation.add(phi).map_err(raise))
+        with_slice("phi", phi, |phi| self.window.add(phi).map_err(raise))
     }
 
     /// The sum, (n, n), in units of phi**2.
@@ -39,25 +39,25 @@ impl InformationWindow {
     fn information<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let n = self.parameters;
         let mut information = vec![0.0; n * n];
-        self.excitation.information(&mut information).map_err(raise)?;
+        self.window.information(&mut information).map_err(raise)?;
         shaped(py, information, &[n, n])
     }
 
     /// Size below which an eigenvalue of the sum cannot be told from rounding.
     #[getter]
     fn noise(&self) -> f64 {
-        self.excitation.noise()
+        self.window.noise()
     }
 
     /// Samples taken so far.
     #[getter]
     fn seen(&self) -> u64 {
-        self.excitation.seen()
+        self.window.seen()
     }
 
     /// Samples in a full window.
     #[getter]
     fn window(&self) -> usize {
-        self.excitation.window()
+        self.window.window()
     }
 }

@@ -1,7 +1,7 @@
 //! Functions of the user's, as values of parameters.
 
 use crate::parameter::{Parameter, Value, Values};
-use crate::rates::Evidence;
+use crate::sample::Evidence;
 use crate::{Error, Memory};
 use alloc::sync::Arc;
 use core::any::Any;

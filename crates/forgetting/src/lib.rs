@@ -19,24 +19,17 @@ extern crate alloc;
 #[cfg(test)]
 extern crate std;
 
-mod between;
 mod blocks;
 pub mod covariance;
 pub mod criterion;
 mod directions;
 mod error;
 mod estimator;
-mod evidence;
-#[cfg(feature = "alloc")]
-mod excitation;
 #[cfg(feature = "alloc")]
 pub mod fleet;
 #[cfg(feature = "alloc")]
 pub mod function;
 pub mod gates;
-mod innovation;
-mod intake;
-mod measure;
 mod memory;
 pub mod monitor;
 pub mod parameter;
@@ -49,27 +42,23 @@ pub mod saved;
 pub mod state;
 #[cfg(test)]
 mod testing;
-mod update;
 pub mod weighting;
-mod work;
 
 pub use blocks::Blocks;
 pub use covariance::{Factor, Prior};
 pub use error::Error;
-pub use estimator::Estimator;
-pub use evidence::{Evidence, Needs};
 #[cfg(feature = "alloc")]
-pub use excitation::Excitation;
+pub use estimator::AnyEstimator;
+pub use estimator::Estimator;
 pub use forgetting_kernels::kernel::outcome::Outcome;
 pub use forgetting_kernels::{Kernels, Real};
-pub use intake::Noise;
 #[cfg(feature = "alloc")]
 pub use memory::{Aligned, Dynamic};
 pub use memory::{Buffer, Fixed, Grid, Memory, Packed, Size};
 pub use monitor::Health;
+#[cfg(feature = "alloc")]
+pub use monitor::InformationWindow;
 pub use rates::{Constant, Rate};
-pub use rules::{Exponential, ExponentialResetting, Forgetting, NoForgetting, Skip, Subspace};
-pub use sample::Sample;
-pub use update::Update;
+pub use rules::{Exponential, ExponentialResetting, Forgetting, NoForgetting, Subspace};
+pub use sample::{Answer, Evidence, Needs, Noise, Sample, Skip, Update, Work};
 pub use weighting::{Equal, Weighting};
-pub use work::Work;

@@ -1,26 +1,17 @@
 //! The recursion step by step: admit, forget, measure and correct, watch.
 
-use super::{forgotten, Estimator};
-use crate::between::Between;
-use crate::evidence::Known;
-use crate::gates::{Answer, Gate};
-use crate::intake::{whiten, Noise};
-use crate::measure::{leverage, measure_rows};
+use super::diagnostics::Diagnostics;
+use super::statistics::Statistics;
+use super::{Buffers, Design, Estimator, EstimatorState};
+use crate::gates::Gate;
 use crate::rates::Rate;
-use crate::rules::{Forgetting, Forgotten, Skip, Step};
-use crate::update::{Update, Whitened};
+use crate::rules::{Forgetting, Forgotten, Step};
+use crate::sample::{leverage, measure_rows, whiten};
+use crate::sample::{Answer, Noise, Sample, Skip, Update, Whitened};
 use crate::weighting::Weighting;
-use crate::{Error, Memory, Real, Sample};
+use crate::{Error, Memory, Real};
 use forgetting_kernels::kernel::form::Form;
 use forgetting_kernels::kernel::watch::Observation;
-
-/// What is known of a sample before it is used, and what the gate says of it.
-struct Admitted<T> {
-    known: Known<T>,
-    gate: Answer,
-    /// ‖φ̄‖²
-    squares: T,
-}
 
 impl<F, R, W, M> Estimator<F, R, W, M>
 where
@@ -37,105 +28,106 @@ where
         y: &[M::Real],
         noise: Noise<'_, M::Real>,
     ) -> Result<Update<'_, M::Real>, Error> {
-        let memory = self.prior.memory();
-        let Admitted { known, gate, squares } = self.admit(phi, y, noise)?;
-        let intake = &mut self.intake;
-        let seen = intake.seen.as_ref();
-        let mut sample = Sample::new(memory, intake.regressors.as_mut(), intake.errors.as_mut());
+        let (statistics, gate) = self.admit(phi, y, noise)?;
+        let Self { design, state, buffers } = self;
+        let (memory, squares) = (design.prior.memory(), statistics.squared_regressors);
+        let buffer = &mut buffers.sample;
+        let clipped = buffer.clipped.as_ref();
+        let mut sample = Sample::new(memory, buffer.regressors.as_mut(), buffer.errors.as_mut());
         let lambda = match gate {
             Answer::Update => {
-                let evidence = known.evidence(&sample, &self.factor, seen, self.samples);
-                usable(self.rate.forgetting_factor(&self.rate_state, &evidence)?)?
+                let evidence = statistics.evidence(&sample, &state.factor, clipped);
+                usable(design.rate.forgetting_factor(&state.rate, &evidence)?)?
             }
             Answer::Freeze | Answer::Hold => M::Real::ONE,
         };
         let step = Step {
-            factor: &mut self.factor,
+            factor: &mut state.factor,
             sample: &mut sample,
             forgetting_factor: lambda,
-            work: &mut self.work,
+            work: &mut buffers.work,
         };
-        let rule = (&self.rule, &mut self.rule_state);
-        let buffers = (self.theta.as_mut(), &mut intake.remaining);
+        let rule = (&design.rule, &mut state.rule);
+        let theta = (state.theta.as_mut(), &mut buffer.remaining);
         let (Forgotten { rank, skipped, forgetting_factor }, leverage) =
-            forget_and_measure((gate, squares), rule, step, buffers, &mut self.between)?;
+            forget_and_measure((gate, squares), rule, step, theta, &mut buffers.diagnostics)?;
         if skipped.is_none() {
-            let evidence = known.evidence(&sample, &self.factor, seen, self.samples);
-            self.rate.learn(&mut self.rate_state, &evidence, lambda);
-            self.samples += 1;
+            let evidence = statistics.evidence(&sample, &state.factor, clipped);
+            design.rate.learn(&mut state.rate, &evidence, lambda);
+            state.samples += 1;
         }
-        if let Some(monitor) = &mut self.monitor {
+        if let Some(monitor) = &mut state.monitor {
             let observation = Observation {
                 rows: sample.rows(),
                 regressors: sample.regressors(),
                 errors: sample.errors(),
-                squared_error: known.used_error(),
+                squared_error: statistics.weighted_squared_error(),
                 leverage,
                 forgetting_factor: lambda,
             };
-            monitor.watch_one(&self.factor, skipped.is_none().then_some(observation));
+            monitor.watch_one(&state.factor, skipped.is_none().then_some(observation));
         }
         let noise = sample.scaled() * sample.scaled();
         Ok(Update {
-            error: self.intake.innovations.as_ref(),
+            error: buffer.innovations.as_ref(),
             leverage,
             forgetting_factor: forgetting_factor.map_or(lambda, M::Real::from_f64),
             rank,
             skipped,
             gate,
-            windup: match &self.monitor {
+            windup: match &state.monitor {
                 Some(monitor) => monitor.windup(),
-                None => self.factor.exceeds(self.windup_limit),
+                None => state.factor.exceeds(design.windup_limit),
             },
             whitened: match memory.rows() {
-                1 => Whitened::Row { errors: self.intake.errors.as_ref(), noise },
-                _ => self.between.whitened(),
+                1 => Whitened::Row { errors: buffer.errors.as_ref(), noise },
+                _ => buffers.diagnostics.whitened(),
             },
         })
     }
 
-    /// Leaves the sample in its buffers, whitened, and weighted unless it is held. Nothing that
-    /// lasts has changed.
+    /// Checks the sample and leaves it in its buffers, whitened, and weighted unless the gate holds
+    /// it. The state has not changed.
     #[inline]
     fn admit(
         &mut self,
         phi: &[M::Real],
         y: &[M::Real],
         noise: Noise<'_, M::Real>,
-    ) -> Result<Admitted<M::Real>, Error> {
-        let memory = self.prior.memory();
-        let intake = &mut self.intake;
-        let squares = intake.take(memory, self.theta.as_ref(), phi, y)?;
-        let mut sample = Sample::new(memory, intake.regressors.as_mut(), intake.errors.as_mut());
-        whiten(&mut sample, noise, intake.noise.as_mut())?;
+    ) -> Result<(Statistics<M::Real>, Answer), Error> {
+        let Design { rate, weighting, gate, prior, .. } = &self.design;
+        let EstimatorState { factor, theta, samples, .. } = &self.state;
+        let Buffers { sample: buffer, work, .. } = &mut self.buffers;
+        let memory = prior.memory();
+        let squares = buffer.load(memory, theta.as_ref(), phi, y)?;
+        let mut sample = Sample::new(memory, buffer.regressors.as_mut(), buffer.errors.as_mut());
+        whiten(&mut sample, noise, buffer.noise.as_mut())?;
         let unit = matches!(noise, Noise::Unit);
         let squares = if unit { squares } else { sample.squared_regressors() };
-        let mut known = Known::of(memory, &sample, squares)?;
-        let needs = self.rate.needs().max(self.weighting.needs()).max(self.gate.needs());
-        let buffers = (intake.remaining.as_mut(), intake.noise.as_mut());
-        known.find(needs, &self.factor, &sample, &mut self.work, buffers);
-        let gate = known.ask(&self.gate, &sample, &self.factor, self.samples)?;
-        if gate != Answer::Hold {
-            let seen = intake.seen.as_mut();
-            known.weigh(&self.weighting, &mut sample, seen, &self.factor, self.samples)?;
+        let mut statistics = Statistics::of(memory, &sample, squares, *samples)?;
+        let needs = rate.needs().max(weighting.needs()).max(gate.needs());
+        let free = (buffer.remaining.as_mut(), buffer.noise.as_mut());
+        statistics.compute(needs, factor, &sample, work, free);
+        let answer = statistics.ask(gate, &sample, factor)?;
+        if answer != Answer::Hold {
+            statistics.weigh(weighting, &mut sample, buffer.clipped.as_mut(), factor)?;
         }
-        let squares = if self.weighting.is_equal() { squares } else { sample.squared_regressors() };
-        Ok(Admitted { known, gate, squares })
+        Ok((statistics, answer))
     }
 }
 
 /// Forgets as gate and rule say, measures and corrects θ; returns what was forgotten and
-/// tr φ̄P̄φ̄ᵀ. Leaves in `between` what is asked for.
+/// tr φ̄P̄φ̄ᵀ. Records in `diagnostics` what is asked for.
 #[inline]
 fn forget_and_measure<F: Forgetting<M>, M: Memory>(
     (gate, squares): (Answer, M::Real),
     (rule, state): (&F, &mut F::State),
     step: Step<'_, '_, M>,
     (theta, remaining): (&mut [M::Real], &mut M::Errors),
-    between: &mut Between<M>,
+    diagnostics: &mut Diagnostics<M>,
 ) -> Result<(Forgotten, M::Real), Error> {
     let Step { factor, sample, forgetting_factor, work } = step;
-    between.take(sample);
+    diagnostics.record_sample(sample);
     let form = match (gate, sample.rows()) {
         (Answer::Update, 1) => rule.form(forgetting_factor),
         (Answer::Freeze, 1) => Some(Form::Scale { growth: M::Real::ONE }),
@@ -147,14 +139,14 @@ fn forget_and_measure<F: Forgetting<M>, M: Memory>(
         _ => None,
     };
     if let Some(reason) = left_out {
-        between.look(factor, work);
+        diagnostics.record_prior(factor, work);
         return Ok((Forgotten::skipped(reason), leverage(factor, sample)));
     }
     if gate == Answer::Freeze {
         rule.follow(state, Step { factor, sample, forgetting_factor, work });
     }
     if let Some(form) = form {
-        if let (Answer::Update, Some(factor)) = (gate, between.copy(factor)) {
+        if let (Answer::Update, Some(factor)) = (gate, diagnostics.copy_prior(factor)) {
             rule.forget(state, Step { factor, sample, forgetting_factor, work })?;
         }
         let (f, scratch) = (sample.row(0), work.scratch.as_mut());
@@ -165,7 +157,7 @@ fn forget_and_measure<F: Forgetting<M>, M: Memory>(
         Answer::Update => rule.forget(state, Step { factor, sample, forgetting_factor, work })?,
         Answer::Freeze | Answer::Hold => Forgotten::rank(0),
     };
-    between.look(factor, work);
+    diagnostics.record_prior(factor, work);
     let leverage = if forgotten.skipped.is_some() {
         sample.restore();
         leverage(factor, sample)
@@ -185,5 +177,15 @@ fn usable<T: Real>(lambda: T) -> Result<T, Error> {
         Ok(lambda.max(T::EPSILON))
     } else {
         Err(Error::value("forgetting_factor", lambda.to_f64(), "(0, 1]"))
+    }
+}
+
+/// What forgetting in this form did to P, of n parameters.
+#[inline]
+pub(super) fn forgotten<T: Real>(form: Form<T>, forgot: bool, n: usize) -> Forgotten {
+    match form {
+        Form::Scale { growth } if growth == T::ONE => Forgotten::rank(0).with_factor(1.0),
+        Form::Scale { .. } => Forgotten::rank(n),
+        Form::Along { .. } => Forgotten::rank(usize::from(forgot)),
     }
 }

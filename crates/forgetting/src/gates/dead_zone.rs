@@ -28,10 +28,10 @@
 //! Reference: B. Egardt, *Stability of Adaptive Controllers*, 1979; G. C. Goodwin, K. S. Sin,
 //! *Adaptive Filtering, Prediction and Control*, 1984.
 
-use super::answer::OTHERWISE;
+use super::otherwise::{self, OTHERWISE};
 use super::{AboutGate, Answer, Gate};
 use crate::parameter::{Parameter, Range, Value, Values};
-use crate::rates::Evidence;
+use crate::sample::Evidence;
 use crate::{Error, Memory, Real};
 
 const WIDTH: Parameter = Parameter::real(
@@ -68,12 +68,12 @@ impl<M: Memory> DeadZone<M> {
 
 impl<M: Memory> Gate<M> for DeadZone<M> {
     fn configure(values: &dyn Values, _: M) -> Result<Self, Error> {
-        Self::new(WIDTH.number(values)?, Answer::otherwise(values)?)
+        Self::new(WIDTH.number(values)?, otherwise::read(values)?)
     }
 
     fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>)) {
         each(WIDTH.name, Value::Real(self.width.to_f64()));
-        self.otherwise.describe(each);
+        otherwise::describe(self.otherwise, each);
     }
 
     #[inline]

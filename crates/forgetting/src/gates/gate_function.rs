@@ -20,7 +20,7 @@
 use super::{AboutGate, Answer, Gate};
 use crate::function::EvidenceFunction;
 use crate::parameter::{Kind, Parameter, Range, Value, Values};
-use crate::rates::{Evidence, Needs};
+use crate::sample::{Evidence, Needs};
 use crate::{Error, Memory};
 
 const FUNCTION: Parameter = Parameter::elements(

@@ -24,10 +24,10 @@
 //! - Use it with a rule that forgets in silence, such as `exponential`, for records with nights
 //!   and standstills.
 
-use super::answer::OTHERWISE;
+use super::otherwise::{self, OTHERWISE};
 use super::{AboutGate, Answer, Gate};
 use crate::parameter::{Parameter, Range, Value, Values};
-use crate::rates::{Evidence, Needs};
+use crate::sample::{Evidence, Needs};
 use crate::{Error, Memory, Real};
 
 const INFORMATION: Parameter = Parameter::real(
@@ -64,12 +64,12 @@ impl<M: Memory> MinimumInformation<M> {
 
 impl<M: Memory> Gate<M> for MinimumInformation<M> {
     fn configure(values: &dyn Values, _: M) -> Result<Self, Error> {
-        Self::new(INFORMATION.number(values)?, Answer::otherwise(values)?)
+        Self::new(INFORMATION.number(values)?, otherwise::read(values)?)
     }
 
     fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>)) {
         each(INFORMATION.name, Value::Real(self.information.to_f64()));
-        self.otherwise.describe(each);
+        otherwise::describe(self.otherwise, each);
     }
 
     fn needs(&self) -> Needs {

@@ -4,12 +4,12 @@
 //! but forget nothing) or `hold` (do nothing). It remembers nothing.
 
 use crate::parameter::{Parameter, Value, Values};
-use crate::rates::{Evidence, Needs};
+use crate::sample::{Evidence, Needs};
 use crate::{Error, Memory};
 
-mod answer;
+mod otherwise;
 
-pub use answer::Answer;
+pub use crate::sample::Answer;
 
 /// What the registry says of a gate.
 #[derive(Clone, Copy, Debug)]

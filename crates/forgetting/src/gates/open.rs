@@ -12,7 +12,7 @@
 
 use super::{AboutGate, Answer, Gate};
 use crate::parameter::{Value, Values};
-use crate::rates::Evidence;
+use crate::sample::Evidence;
 use crate::{Error, Memory};
 use core::marker::PhantomData;
 

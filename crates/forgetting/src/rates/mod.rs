@@ -11,7 +11,7 @@ mod limits;
 mod next;
 mod windows;
 
-pub use crate::evidence::{Evidence, Needs};
+pub use crate::sample::{Evidence, Needs};
 pub use averages::{Averages, Memories};
 pub use limits::Limits;
 pub use next::Next;

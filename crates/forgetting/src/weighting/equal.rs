@@ -16,7 +16,7 @@
 
 use super::{AboutWeighting, Weighting};
 use crate::parameter::{Value, Values};
-use crate::rates::Evidence;
+use crate::sample::Evidence;
 use crate::{Error, Memory, Real};
 use core::marker::PhantomData;
 

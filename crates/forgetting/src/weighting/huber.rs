@@ -27,7 +27,7 @@
 
 use super::{AboutWeighting, Weighting};
 use crate::parameter::{Parameter, Range, Value, Values};
-use crate::rates::Evidence;
+use crate::sample::Evidence;
 use crate::{Error, Memory, Real};
 
 const THRESHOLD: Parameter = Parameter::real(

@@ -2,7 +2,7 @@
 //! below. A weight w divides the sample's noise covariance: Γ ← Γ/w.
 
 use crate::parameter::{Parameter, Value, Values};
-use crate::rates::{Evidence, Needs};
+use crate::sample::{Evidence, Needs};
 use crate::{Error, Memory};
 
 /// What the registry says of a weighting.

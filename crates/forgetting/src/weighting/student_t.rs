@@ -24,7 +24,7 @@
 
 use super::{AboutWeighting, Weighting};
 use crate::parameter::{Parameter, Range, Value, Values};
-use crate::rates::Evidence;
+use crate::sample::Evidence;
 use crate::{Error, Memory, Real};
 
 const DEGREES: Parameter = Parameter::real(

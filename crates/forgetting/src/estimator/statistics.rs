@@ -1,89 +1,40 @@
-//! What is known of a sample before it is used: all that a rate, a weighting or a gate may judge by.
+//! What is computed once of a sample, before it is used, and lent to gate, weighting and rate.
 
-use crate::gates::{Answer, AnyGate, Gate};
-use crate::innovation::whiten_errors;
-use crate::intake::{not_finite, out_of_range};
-use crate::measure::leverage;
+use crate::gates::{AnyGate, Gate};
+use crate::sample::{leverage, not_finite, out_of_range, whiten_errors};
+use crate::sample::{Answer, Evidence, Needs, Sample, Work};
 use crate::weighting::Weighting;
-use crate::{Error, Factor, Memory, Real, Sample, Work};
+use crate::{Error, Factor, Memory, Real};
 
-/// What a rate, a weighting or a gate knows of a sample.
-///
-/// Errors are whitened by Γ. A weighting and a gate see them as they are. A rate sees them clipped, that
-/// is multiplied by the weight w: an outlier that moves θ little is no reason to forget. No
-/// statistic exceeds [`Real::CEILING`].
-#[derive(Clone, Copy, Debug)]
-pub struct Evidence<'a, 'b, M: Memory> {
-    /// the whitened sample, weighted by √w; after the rule, as the rule left it
-    pub sample: &'a Sample<'b, M>,
-    /// P, before forgetting in `forgetting_factor`, after the measurement in `learn`
-    pub factor: &'a Factor<M>,
-    /// e, p x m numbers, row by row
-    pub errors: &'a [M::Real],
-    /// ‖e‖² over the rows, averaged over the targets
-    pub squared_error: M::Real,
-    /// tr S with S = φ̄Pφ̄ᵀ without the weight and the P before forgetting, if asked for, else 0
-    pub leverage: M::Real,
-    /// tr eᵀ(I + S)⁻¹e averaged over the targets, if asked for, else 0
-    pub normalized_error: M::Real,
-    /// p
-    pub rows: usize,
-    /// m
-    pub targets: usize,
-    /// samples used so far, without this one
-    pub samples: u64,
-}
-
-impl<M: Memory> Evidence<'_, '_, M> {
-    /// ‖e‖² over the rows, of the target where it is largest.
-    #[inline]
-    pub fn largest_squared_error(&self) -> M::Real {
-        if self.targets == 1 {
-            return self.squared_error;
-        }
-        let squared = |target: usize| {
-            let errors = self.errors.iter().skip(target).step_by(self.targets);
-            errors.fold(M::Real::ZERO, |sum, &e| sum + e * e)
-        };
-        (0..self.targets).fold(M::Real::ZERO, |largest, target| largest.max(squared(target)))
-    }
-}
-
-/// What a design uses beside the errors; each includes those before it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Needs {
-    /// nothing
-    Errors,
-    /// [`Evidence::leverage`]: p n²/2 operations
-    Leverage,
-    /// [`Evidence::normalized_error`]: p n²/2 + p² n operations
-    NormalizedError,
-}
-
-/// The numbers of [`Evidence`] that outlive a look at the sample.
+/// What is computed once of a sample and lent to gate, weighting and rate as [`Evidence`].
 #[derive(Clone, Copy)]
-pub(crate) struct Known<T> {
-    /// ‖φ̄‖², to see that a weight does not make it too large
-    squared_regressors: T,
+pub(super) struct Statistics<T> {
+    /// ‖φ̄‖², after [`Statistics::weigh`] with the weight
+    pub squared_regressors: T,
     squared_error: T,
     leverage: T,
     normalized_error: T,
     weight: T,
     rows: usize,
     targets: usize,
+    samples: u64,
 }
 
-impl<T: Real> Known<T> {
-    /// Refuses a whitened sample that is too large to compute with; its φ̄ has this ‖φ̄‖².
+impl<T: Real> Statistics<T> {
+    /// Of a whitened sample with this ‖φ̄‖², after so many `samples`.
+    ///
+    /// # Errors
+    /// [`Error`] names φ or the error when it is too large to compute with.
     #[inline]
     pub fn of<M: Memory<Real = T>>(
         memory: M,
         sample: &Sample<'_, M>,
         squared_regressors: T,
+        samples: u64,
     ) -> Result<Self, Error> {
         let sum = sample.squared_error();
         if !(squared_regressors <= T::CEILING) {
-            return Err(blame_squares(sample.regressors(), squared_regressors));
+            return Err(blame_regressors(sample.regressors(), squared_regressors));
         }
         if !sum.is_finite() {
             return Err(out_of_range("error (squared and whitened)", sum));
@@ -96,12 +47,13 @@ impl<T: Real> Known<T> {
             weight: T::ONE,
             rows: memory.rows(),
             targets: memory.targets(),
+            samples,
         })
     }
 
-    /// Finds what `needs` names, with the P before forgetting.
+    /// Computes what `needs` names, with the P before forgetting.
     #[inline]
-    pub fn find<M: Memory<Real = T>>(
+    pub fn compute<M: Memory<Real = T>>(
         &mut self,
         needs: Needs,
         factor: &Factor<M>,
@@ -125,40 +77,46 @@ impl<T: Real> Known<T> {
         }
     }
 
-    /// What `gate` says of the sample.
+    /// What `gate` decides about the sample.
+    ///
+    /// # Errors
+    /// [`Error::Function`] when a function of the user's fails.
     #[inline]
     pub fn ask<M: Memory<Real = T>>(
         &self,
         gate: &AnyGate<M>,
         sample: &Sample<'_, M>,
         factor: &Factor<M>,
-        samples: u64,
     ) -> Result<Answer, Error> {
         if gate.is_open() {
             return Ok(Answer::Update);
         }
         let mut capped = *self;
         capped.cap();
-        gate.answer(&capped.evidence(sample, factor, sample.errors(), samples))
+        gate.answer(&capped.evidence(sample, factor, sample.errors()))
     }
 
-    /// Γ ← Γ/w with the weight of the sample; leaves in `seen` the errors that a rate sees, w
-    /// times the whitened ones.
+    /// Γ ← Γ/w with the weight w of the sample; writes w times its errors to `clipped`.
+    ///
+    /// # Errors
+    /// [`Error`] names a weight that is not positive, or that makes φ too large.
     #[inline]
     pub fn weigh<M: Memory<Real = T>, W: Weighting<M>>(
         &mut self,
         weighting: &W,
         sample: &mut Sample<'_, M>,
-        seen: &mut [T],
+        clipped: &mut [T],
         factor: &Factor<M>,
-        samples: u64,
     ) -> Result<(), Error> {
-        seen.copy_from_slice(sample.errors());
-        let weight = weighting.weight(&self.evidence(sample, factor, seen, samples));
+        clipped.copy_from_slice(sample.errors());
+        let weight = weighting.weight(&self.evidence(sample, factor, clipped));
         if weight != T::ONE {
             self.scale(weight)?;
             sample.scale(weight.sqrt());
-            seen.iter_mut().for_each(|e| *e *= weight);
+            clipped.iter_mut().for_each(|e| *e *= weight);
+        }
+        if !weighting.is_equal() {
+            self.squared_regressors = sample.squared_regressors();
         }
         self.cap();
         Ok(())
@@ -180,7 +138,7 @@ impl<T: Real> Known<T> {
 
     /// ‖ē‖² over rows and targets of the sample as it is used, weighted by √w.
     #[inline]
-    pub fn used_error(&self) -> T {
+    pub fn weighted_squared_error(&self) -> T {
         self.squared_error / self.weight * T::from_f64(self.targets as f64)
     }
 
@@ -196,16 +154,15 @@ impl<T: Real> Known<T> {
         }
     }
 
-    /// The same with a look at the sample and at P.
+    /// The statistics together with the sample, its `errors` and P.
     #[inline]
     pub fn evidence<'a, 'b, M: Memory<Real = T>>(
         &self,
         sample: &'a Sample<'b, M>,
         factor: &'a Factor<M>,
         errors: &'a [T],
-        samples: u64,
     ) -> Evidence<'a, 'b, M> {
-        let Self { squared_error, leverage, normalized_error, rows, targets, .. } = *self;
+        let Self { squared_error, leverage, normalized_error, rows, targets, samples, .. } = *self;
         Evidence {
             sample,
             factor,
@@ -220,9 +177,9 @@ impl<T: Real> Known<T> {
     }
 }
 
-/// Why φ̄ cannot be used: a number that is none, or its length.
+/// Why φ̄ cannot be used: a number that is not finite, or its length.
 #[cold]
-pub(crate) fn blame_squares<T: Real>(regressors: &[T], squares: T) -> Error {
+fn blame_regressors<T: Real>(regressors: &[T], squares: T) -> Error {
     match regressors.iter().position(|x| !x.is_finite()) {
         Some(index) => not_finite("phi", index, regressors[index]),
         None => out_of_range("phi (its squared length)", squares),

@@ -20,7 +20,7 @@ use crate::gates::{AnyGate, Gate, Open};
 use crate::parameter::{Value, Values};
 use crate::rates::{AnyRate, Rate};
 use crate::rules::{Forgetting, Rule};
-use crate::state::Visitor;
+use crate::state::{State, Visitor};
 use crate::weighting::{AnyWeighting, Weighting};
 use crate::{Dynamic, Error, Estimator, Memory, Prior, Real};
 use alloc::{boxed::Box, string::String, vec::Vec};
@@ -29,15 +29,12 @@ use forgetting_kernels::Kernels;
 mod read;
 mod write;
 
+pub use crate::estimator::AnyEstimator;
 pub(crate) use write::choice as write_choice;
 
 /// The version of the format that is written, and the latest that is read.
 pub const VERSION: u8 = 2;
 const MARK: &[u8; 5] = b"FGRLS";
-
-/// An estimator of any size, rule, rate, weighting and gate, chosen at run time.
-pub type AnyEstimator<T> =
-    Estimator<Rule<Dynamic<T>>, AnyRate<Dynamic<T>>, AnyWeighting<Dynamic<T>>, Dynamic<T>>;
 
 impl<T: Kernels> AnyEstimator<T> {
     /// The estimator, configuration and state, as bytes.
@@ -46,11 +43,9 @@ impl<T: Kernels> AnyEstimator<T> {
     /// [`Error::Unsupported`] when a part of it is a function of the user's.
     pub fn to_bytes(&self) -> Result<Vec<u8>, Error> {
         let mut bytes = write::header(self)?;
-        let mut copy = self.clone();
-        let mut prior = self.prior().clone();
         let mut numbers = write::Numbers(&mut bytes);
-        prior.visit(&mut numbers);
-        copy.visit(&mut numbers);
+        self.prior().clone().visit(&mut numbers);
+        self.state().clone().visit(&mut numbers);
         let check = crc32(&bytes);
         bytes.extend_from_slice(&check.to_le_bytes());
         Ok(bytes)

@@ -1,6 +1,7 @@
 //! Measure and correct: R₊ = R̄ + φᵀΓ⁻¹φ and θ₊ = θ + R₊⁻¹φᵀΓ⁻¹(y − φθ).
 
-use crate::{Factor, Memory, Real, Sample};
+use super::Sample;
+use crate::{Factor, Memory, Real};
 use forgetting_kernels::kernel::functions::{add_scaled, dot};
 
 /// tr φ̄Pφ̄ᵀ

@@ -24,7 +24,12 @@ use forgetting_kernels::kernel::watch::{Observation, Observations, Residual, Sil
 use forgetting_kernels::Kernels;
 use weakest::Weakest;
 
+#[cfg(feature = "alloc")]
+mod information_window;
 mod weakest;
+
+#[cfg(feature = "alloc")]
+pub use information_window::InformationWindow;
 
 /// Growth of the variance of a silent direction that counts as windup.
 pub const FACTOR: f64 = 10.0;

@@ -6,21 +6,29 @@
 //! correct   θ₊ = θ + R₊⁻¹ φᵀ Γ⁻¹ (y − φ θ)     θ changes here and nowhere else
 //! ```
 
-use crate::between::Between;
-use crate::gates::{Answer, AnyGate, Gate, Open};
-use crate::intake::{Intake, Noise};
-use crate::monitor::Monitor;
+mod accessors;
+#[cfg(feature = "alloc")]
+mod any;
+mod design;
+mod diagnostics;
+mod state;
+mod statistics;
+mod steps;
+
+use crate::gates::{AnyGate, Open};
 use crate::rates::Rate;
-use crate::rules::{Forgetting, Forgotten, Skip};
-use crate::update::{Update, Whitened};
+use crate::rules::{Forgetting, Forgotten};
+use crate::sample::{Answer, Noise, SampleBuffers, Skip, Update, Whitened, Work};
 use crate::weighting::Weighting;
-use crate::{Error, Factor, Memory, Prior, Real, Work};
-use forgetting_kernels::kernel::form::Form;
+use crate::{Error, Memory, Prior, Real};
+#[cfg(feature = "alloc")]
+pub use any::AnyEstimator;
+use design::{Design, Steady};
+use diagnostics::Diagnostics;
 use forgetting_kernels::kernel::outcome::Outcome;
 use forgetting_kernels::kernel::watch::Observations;
-
-mod held;
-mod steps;
+use state::EstimatorState;
+use steps::forgotten;
 
 /// Recursive least squares with the forgetting rule `F`, the rate `R` and the weighting `W`.
 ///
@@ -50,40 +58,17 @@ where
     W: Weighting<M>,
     M: Memory,
 {
-    rule: F,
-    rate: R,
-    weighting: W,
-    gate: AnyGate<M>,
-    prior: Prior<M>,
-    factor: Factor<M>,
-    theta: M::Parameters,
-    rule_state: F::State,
-    rate_state: R::State,
-    samples: u64,
-    windup_limit: M::Real,
-    /// what every sample does to P, if that is all that there is to do
-    steady: Option<Steady<M::Real>>,
-    monitor: Option<Monitor<M>>,
-    between: Between<M>,
-    intake: Intake<M>,
+    design: Design<F, R, W, M>,
+    state: EstimatorState<F, R, M>,
+    buffers: Buffers<M>,
+}
+
+/// What an update writes to, and the next one need not read.
+#[derive(Clone, Debug)]
+struct Buffers<M: Memory> {
+    sample: SampleBuffers<M>,
     work: Work<M>,
-}
-
-/// The same λ and the same form of forgetting for every sample, of one row and one target.
-#[derive(Clone, Copy, Debug)]
-struct Steady<T> {
-    lambda: T,
-    form: Form<T>,
-}
-
-/// What forgetting in this form did to P, of n parameters.
-#[inline]
-fn forgotten<T: Real>(form: Form<T>, forgot: bool, n: usize) -> Forgotten {
-    match form {
-        Form::Scale { growth } if growth == T::ONE => Forgotten::rank(0).with_factor(1.0),
-        Form::Scale { .. } => Forgotten::rank(n),
-        Form::Along { .. } => Forgotten::rank(usize::from(forgot)),
-    }
+    diagnostics: Diagnostics<M>,
 }
 
 impl<F, R, W, M> Estimator<F, R, W, M>
@@ -99,59 +84,41 @@ where
     /// An estimator that starts from `prior`.
     pub fn new(rule: F, rate: R, weighting: W, prior: Prior<M>) -> Self {
         let memory = prior.memory();
-        let factor = prior.factor();
-        let single = (memory.rows(), memory.targets()) == (1, 1) && weighting.is_equal();
-        let steady = rate
-            .constant()
-            .filter(|_| single)
-            .map(|lambda| lambda.max(M::Real::EPSILON))
-            .and_then(|lambda| rule.form(lambda).map(|form| Steady { lambda, form }));
-        Self {
-            steady,
-            theta: prior.theta().clone(),
-            rule_state: rule.start(memory),
-            rate_state: rate.start(memory),
-            windup_limit: M::Real::from_f64(Self::WINDUP) * factor.largest(),
-            monitor: None,
-            between: Between::new(),
-            gate: AnyGate::Open(Open::new()),
-            intake: Intake::new(memory),
+        let design = Design::new(rule, rate, weighting, AnyGate::Open(Open::new()), prior);
+        let buffers = Buffers {
+            sample: SampleBuffers::new(memory),
             work: Work::new(memory),
-            samples: 0,
-            rule,
-            rate,
-            weighting,
-            prior,
-            factor,
-        }
+            diagnostics: Diagnostics::new(),
+        };
+        Self { state: design.start(false), design, buffers }
     }
 
     /// The same estimator behind this gate.
     #[must_use]
-    pub fn with_gate(mut self, gate: AnyGate<M>) -> Self {
-        if !gate.is_open() {
-            self.steady = None;
-        }
-        self.gate = gate;
-        self
+    pub fn with_gate(self, gate: AnyGate<M>) -> Self {
+        Self { design: self.design.with_gate(gate), ..self }
     }
 
     /// Back to the prior, as if no sample had been seen.
     pub fn reset(&mut self) {
-        let memory = self.prior.memory();
-        self.factor = self.prior.factor();
-        self.theta = self.prior.theta().clone();
-        self.rule_state = self.rule.start(memory);
-        self.rate_state = self.rate.start(memory);
-        self.samples = 0;
-        if self.monitor.is_some() {
-            self.monitor = Some(Monitor::new(&self.factor, self.rule.is_bounded()));
-        }
+        self.state = self.design.start(self.state.monitor.is_some());
     }
 
     /// Watches from now on: [`Estimator::health`] tells what it sees. O(n) a sample.
     pub fn watch(&mut self) {
-        self.monitor = Some(Monitor::new(&self.factor, self.rule.is_bounded()));
+        self.state.monitor = Some(self.design.monitor(&self.state.factor));
+    }
+
+    /// Does `work`. If that fails, the estimator is as it was before, bit for bit.
+    ///
+    /// # Errors
+    /// Those of `work`.
+    pub fn all_or_nothing<X, E>(
+        &mut self,
+        work: impl FnOnce(&mut Self) -> Result<X, E>,
+    ) -> Result<X, E> {
+        let before = self.state.clone();
+        work(self).inspect_err(|_| self.state = before)
     }
 
     /// Takes the sample of p x n numbers `phi` and p x m numbers `y`, with Γ = I.
@@ -174,15 +141,15 @@ where
         y: &[M::Real],
         noise: Noise<'_, M::Real>,
     ) -> Result<Update<'_, M::Real>, Error> {
-        let n = self.prior.memory().parameters();
+        let n = self.design.prior.memory().parameters();
         let mut told = [Outcome::default()];
         if phi.len() == n
             && y.len() == 1
             && matches!(noise, Noise::Unit)
             && self.advance(phi, y, &mut told, &mut []) == 1
         {
-            self.intake.innovations.as_mut()[0] = told[0].error;
-            return Ok(self.tell(self.intake.innovations.as_ref(), &told[0]));
+            self.buffers.sample.innovations.as_mut()[0] = told[0].error;
+            return Ok(self.tell(self.buffers.sample.innovations.as_ref(), &told[0]));
         }
         self.update_in_steps(phi, y, noise)
     }
@@ -203,23 +170,27 @@ where
         told: &mut [Outcome<M::Real>],
         thetas: &mut [M::Real],
     ) -> usize {
-        let Some(steady) = self.steady.filter(|_| !self.between.keeps_prior()) else { return 0 };
-        // the watch looks at P now and then
-        let room = self.monitor.as_ref().map_or(told.len(), |monitor| monitor.room(told.len()));
+        let Self { design, state, buffers } = self;
+        let Some(steady) = design.steady.filter(|_| !buffers.diagnostics.keeps_prior()) else {
+            return 0;
+        };
+        // the monitor looks at P now and then
+        let room = state.monitor.as_ref().map_or(told.len(), |monitor| monitor.room(told.len()));
         let told = &mut told[..room];
-        let (scratch, theta) = (self.work.scratch.as_mut(), self.theta.as_mut());
-        let taken = self.factor.advance(steady.form, (phi, y), scratch, theta, (told, thetas));
-        self.samples += told[..taken].iter().filter(|told| told.used).count() as u64;
+        let (scratch, theta) = (buffers.work.scratch.as_mut(), state.theta.as_mut());
+        let taken = state.factor.advance(steady.form, (phi, y), scratch, theta, (told, thetas));
+        state.samples += told[..taken].iter().filter(|told| told.used).count() as u64;
         self.show(steady.lambda, phi, &mut told[..taken]);
         taken
     }
 
-    /// Shows samples to the watch, and notes what it says of each.
+    /// Shows samples to the monitor, and notes what it says of each.
     #[inline]
     fn show(&mut self, lambda: M::Real, phi: &[M::Real], told: &mut [Outcome<M::Real>]) {
-        let Some(monitor) = &mut self.monitor else { return };
+        let EstimatorState { factor, monitor, .. } = &mut self.state;
+        let Some(monitor) = monitor else { return };
         let samples = Observations { forgetting_factor: lambda, phi, outcomes: told };
-        let wound_up = monitor.watch(&self.factor, samples);
+        let wound_up = monitor.watch(factor, samples);
         told[..wound_up].iter_mut().for_each(|told| told.windup = true);
         if let Some(last) = told.last_mut() {
             last.windup = monitor.windup();
@@ -234,8 +205,8 @@ where
 
     #[inline]
     fn tell<'a>(&self, error: &'a [M::Real], told: &Outcome<M::Real>) -> Update<'a, M::Real> {
-        let n = self.prior.memory().parameters();
-        let (lambda, forgotten) = match self.steady {
+        let n = self.design.prior.memory().parameters();
+        let (lambda, forgotten) = match self.design.steady {
             Some(Steady { lambda, form }) => (lambda, forgotten(form, told.forgot, n)),
             None => (M::Real::ONE, Forgotten::rank(0)),
         };
@@ -246,9 +217,9 @@ where
             rank: forgotten.rank,
             skipped: (!told.used).then_some(Skip::DeadZone),
             gate: Answer::Update,
-            windup: match &self.monitor {
+            windup: match &self.state.monitor {
                 Some(_) => told.windup,
-                None => told.largest > self.windup_limit,
+                None => told.largest > self.design.windup_limit,
             },
             whitened: Whitened::Row { errors: error, noise: M::Real::ONE },
         }

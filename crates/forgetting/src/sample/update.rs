@@ -1,10 +1,9 @@
-//! What one sample told.
+//! What an update reports of its sample.
 
-use crate::gates::Answer;
-use crate::rules::Skip;
+use super::{Answer, Skip};
 use crate::{Error, Real};
 
-/// What one sample told.
+/// What an update reports of its sample.
 #[derive(Clone, Copy, Debug)]
 pub struct Update<'a, T> {
     /// y − φθ with the θ of before: p x m numbers, row by row, in units of y

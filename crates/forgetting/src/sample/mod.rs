@@ -1,8 +1,34 @@
-//! One sample on its way through the estimator: whitened, possibly rotated, possibly thinned.
+//! One sample on its way through the estimator: checked, whitened, possibly rotated or thinned by
+//! the rule, judged by gate, weighting and rate, measured, and reported.
+
+mod answer;
+mod buffers;
+mod check;
+mod cholesky;
+mod evidence;
+mod innovation;
+mod measure;
+mod noise;
+mod orthogonalize;
+mod skip;
+mod update;
 
 use crate::{Error, Memory, Real};
 use forgetting_kernels::kernel::functions::{add_scaled, dot};
-use forgetting_kernels::Kernels;
+
+pub use answer::Answer;
+pub(crate) use buffers::SampleBuffers;
+pub use buffers::Work;
+pub(crate) use check::{not_finite, out_of_range};
+pub(crate) use cholesky::cholesky;
+pub use evidence::{Evidence, Needs};
+pub(crate) use innovation::whiten_errors;
+pub(crate) use measure::{leverage, measure_rows};
+pub(crate) use noise::whiten;
+pub use noise::Noise;
+pub use skip::Skip;
+pub use update::Update;
+pub(crate) use update::Whitened;
 
 /// The whitened sample φ̄ = Γ^(−1/2)φ and ē = Γ^(−1/2)(y − φθ).
 ///
@@ -141,47 +167,6 @@ impl<'a, M: Memory> Sample<'a, M> {
         }
     }
 
-    /// Rotates the rows until they are orthogonal (one-sided Jacobi): with the compact singular
-    /// value decomposition φ̄ = W S Vᵀ, φ̄ becomes S Vᵀ and ē becomes Wᵀē.
-    pub fn orthogonalize(&mut self) {
-        const SWEEPS: usize = 30;
-        for _ in 0..SWEEPS {
-            let mut rotated = false;
-            for i in 0..self.rows {
-                for k in i + 1..self.rows {
-                    rotated |= self.rotate(i, k);
-                }
-            }
-            if !rotated {
-                break;
-            }
-        }
-    }
-
-    /// Makes rows i < k orthogonal; says whether they were not.
-    fn rotate(&mut self, i: usize, k: usize) -> bool {
-        let (a, b) = (dot(self.row(i), self.row(i)), dot(self.row(k), self.row(k)));
-        let c = dot(self.row(i), self.row(k));
-        if c.abs() <= M::Real::EPSILON * (a * b).sqrt() {
-            return false;
-        }
-        let zeta = (b - a) / (c + c);
-        let sign = if zeta < M::Real::ZERO { -M::Real::ONE } else { M::Real::ONE };
-        let t = sign / (zeta.abs() + (M::Real::ONE + zeta * zeta).sqrt());
-        let cosine = M::Real::ONE / (M::Real::ONE + t * t).sqrt();
-        let sine = cosine * t;
-        let (n, m) = (self.memory.parameters(), self.memory.targets());
-        for (block, width) in [(&mut *self.regressors, n), (&mut *self.errors, m)] {
-            let (above, from) = block.split_at_mut(k * width);
-            for (x, y) in above[i * width..].iter_mut().zip(&mut from[..width]) {
-                let (before_x, before_y) = (*x, *y);
-                *x = cosine * before_x - sine * before_y;
-                *y = sine * before_x + cosine * before_y;
-            }
-        }
-        true
-    }
-
     /// Sets the rows of φ̄ that are not longer than `least` to zero.
     pub fn clear_shorter_than(&mut self, least: M::Real) {
         for row in self.regressors.chunks_exact_mut(self.memory.parameters()) {
@@ -204,30 +189,4 @@ impl<'a, M: Memory> Sample<'a, M> {
         }
         self.rows = kept;
     }
-}
-
-/// A = L Lᵀ of the p x p matrix `a`, L in its lower triangle.
-///
-/// # Errors
-/// [`Error::Indefinite`] names `parameter`.
-pub(crate) fn cholesky<T: Kernels>(
-    a: &mut [T],
-    p: usize,
-    parameter: &'static str,
-) -> Result<(), Error> {
-    for j in 0..p {
-        let (done, _) = a[j * p..].split_at(j);
-        let pivot = a[j * p + j] - dot(done, done);
-        if !(pivot > T::ZERO && pivot.is_finite()) {
-            let pivot = pivot.to_f64();
-            return Err(Error::Indefinite { parameter, pivot, allowed: "positive definite" });
-        }
-        let diagonal = pivot.sqrt();
-        a[j * p + j] = diagonal;
-        for i in j + 1..p {
-            let sum = dot(&a[i * p..i * p + j], &a[j * p..j * p + j]);
-            a[i * p + j] = (a[i * p + j] - sum) / diagonal;
-        }
-    }
-    Ok(())
 }

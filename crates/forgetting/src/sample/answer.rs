@@ -1,7 +1,4 @@
-//! What a gate says of a sample.
-
-use crate::parameter::{Parameter, Value, Values};
-use crate::Error;
+//! What a gate decides about a sample.
 
 /// What is done with a sample. Each is a step of Theorem 1: to freeze is F = 0, to hold is F = 0
 /// and φ = 0, and so neither is improper or moves P up.
@@ -14,13 +11,6 @@ pub enum Answer {
     /// neither forget nor learn: all stays as it is
     Hold,
 }
-
-/// What is done with a sample that does not pass.
-pub(crate) const OTHERWISE: Parameter = Parameter::word(
-    "otherwise",
-    &["hold", "freeze"],
-    "what is done with a sample that does not pass: neither forget nor learn, or learn only",
-);
 
 impl Answer {
     /// Every answer; its position is its code in a record of results.
@@ -43,16 +33,6 @@ impl Answer {
     /// The code of this answer: 0 is `update`.
     pub fn code(self) -> u8 {
         self as u8
-    }
-
-    /// The one that `otherwise` names in `values`.
-    pub(crate) fn otherwise(values: &dyn Values) -> Result<Self, Error> {
-        OTHERWISE.choice(values).map(|position| [Self::Hold, Self::Freeze][position])
-    }
-
-    /// Names the answer as the parameter `otherwise`.
-    pub(crate) fn describe(self, each: &mut dyn FnMut(&'static str, Value<'_>)) {
-        each(OTHERWISE.name, Value::Word(self.word()));
     }
 }
 

@@ -1,12 +1,12 @@
-//! What is between forgetting and measuring, for those who ask: P̄ and the whitened innovation.
+//! What an estimator records of each sample on request: P after forgetting, and the whitened
+//! innovation.
 
-use crate::innovation::whiten_errors;
-use crate::update::Whitened;
-use crate::{Factor, Memory, Sample, Work};
+use crate::sample::{whiten_errors, Sample, Whitened, Work};
+use crate::{Factor, Memory};
 
-/// What is kept of each sample, none of it unless asked for. Not state.
+/// What is recorded of the last sample: nothing unless it was asked for. Not part of the state.
 #[derive(Clone, Debug)]
-pub(crate) struct Between<M: Memory> {
+pub(super) struct Diagnostics<M: Memory> {
     prior: Option<Factor<M>>,
     innovations: Option<Innovations<M>>,
 }
@@ -22,20 +22,20 @@ struct Innovations<M: Memory> {
     identity: M::Noise,
 }
 
-impl<M: Memory> Between<M> {
-    /// Keeps nothing.
+impl<M: Memory> Diagnostics<M> {
+    /// Records nothing.
     pub fn new() -> Self {
         Self { prior: None, innovations: None }
     }
 
-    /// Keeps P̄ from now on, or no longer; `factor` is P.
+    /// Records P̄ from now on, or no longer; `factor` is P.
     pub fn keep_prior(&mut self, keep: bool, factor: &Factor<M>) {
         if keep != self.prior.is_some() {
             self.prior = keep.then(|| factor.clone());
         }
     }
 
-    /// Keeps whitened innovations from now on, or no longer. Those of one row need no keeping.
+    /// Records whitened innovations from now on, or no longer. One row needs no recording.
     pub fn keep_innovations(&mut self, keep: bool, memory: M) {
         let keep = keep && memory.rows() > 1;
         if keep != self.innovations.is_some() {
@@ -47,7 +47,7 @@ impl<M: Memory> Between<M> {
         }
     }
 
-    /// Whether P̄ is kept, so that it must not be passed over.
+    /// Whether P̄ is recorded, so that forgetting and measuring must be two steps.
     #[inline]
     pub fn keeps_prior(&self) -> bool {
         self.prior.is_some()
@@ -58,27 +58,27 @@ impl<M: Memory> Between<M> {
         self.prior.as_ref()
     }
 
-    /// Takes note of the sample before the rule sees it.
+    /// Records the sample before the rule changes it.
     #[inline]
-    pub fn take(&mut self, sample: &Sample<'_, M>) {
+    pub fn record_sample(&mut self, sample: &Sample<'_, M>) {
         if let Some(kept) = &mut self.innovations {
             kept.regressors.as_mut().copy_from_slice(sample.regressors());
             kept.errors.as_mut().copy_from_slice(sample.errors());
         }
     }
 
-    /// A copy of P that is to become P̄, if that is asked for.
+    /// A copy of P, for the rule to make P̄ of it, if P̄ is asked for.
     #[inline]
-    pub fn copy(&mut self, factor: &Factor<M>) -> Option<&mut Factor<M>> {
+    pub fn copy_prior(&mut self, factor: &Factor<M>) -> Option<&mut Factor<M>> {
         let prior = self.prior.as_mut()?;
         prior.copy_from(factor);
         Some(prior)
     }
 
-    /// Takes note of P̄.
+    /// Records P̄ = `factor`, and the innovation whitened with it.
     #[inline]
-    pub fn look(&mut self, factor: &Factor<M>, work: &mut Work<M>) {
-        self.copy(factor);
+    pub fn record_prior(&mut self, factor: &Factor<M>, work: &mut Work<M>) {
+        self.copy_prior(factor);
         if let Some(kept) = &mut self.innovations {
             whiten_errors(
                 factor,
@@ -90,7 +90,7 @@ impl<M: Memory> Between<M> {
         }
     }
 
-    /// L⁻¹e of a sample of several rows, if it was kept.
+    /// L⁻¹e of a sample of several rows, if it was recorded.
     #[inline]
     pub fn whitened(&self) -> Whitened<'_, M::Real> {
         match &self.innovations {

@@ -1,4 +1,4 @@
-//! How much the last N samples excite: the extreme eigenvalues of Σ φᵀΓ⁻¹φ over a sliding window.
+//! The information Σ φᵀΓ⁻¹φ of the last N samples, kept in O(n²) a sample.
 //!
 //! ```text
 //! A_k = Σ φ_iᵀΓ_i⁻¹φ_i,  i = k − N + 1 … k       α I ≤ A_k ≤ β I: GF-RLS (A4), N terms
@@ -17,7 +17,7 @@ use alloc::{vec, vec::Vec};
 
 /// A sliding window over whitened regressors.
 #[derive(Clone, Debug)]
-pub struct Excitation<T> {
+pub struct InformationWindow<T> {
     parameters: usize,
     rows: usize,
     window: usize,
@@ -32,7 +32,7 @@ pub struct Excitation<T> {
     seen: u64,
 }
 
-impl<T: Real> Excitation<T> {
+impl<T: Real> InformationWindow<T> {
     /// A window of `window` samples of `rows` x `parameters` numbers.
     ///
     /// # Errors
@@ -133,7 +133,7 @@ fn accumulate<T: Real>(sum: &mut [T], phi: &[T], sign: T, n: usize) {
 
 #[cfg(test)]
 mod tests {
-    use super::Excitation;
+    use super::InformationWindow;
     use alloc::vec::Vec;
 
     fn sample(k: usize) -> Vec<f64> {
@@ -144,7 +144,7 @@ mod tests {
 
     #[test]
     fn the_window_is_the_sum_of_its_samples() {
-        let mut meter = Excitation::<f64>::new(3, 2, 20).unwrap();
+        let mut meter = InformationWindow::<f64>::new(3, 2, 20).unwrap();
         let mut information = [0.0; 9];
         for k in 0..500 {
             meter.add(&sample(k)).unwrap();
@@ -162,7 +162,7 @@ mod tests {
 
     #[test]
     fn bad_samples_change_nothing() {
-        let mut meter = Excitation::<f64>::new(2, 1, 3).unwrap();
+        let mut meter = InformationWindow::<f64>::new(2, 1, 3).unwrap();
         meter.add(&[1.0, 2.0]).unwrap();
         for bad in [&[1.0][..], &[f64::NAN, 1.0], &[1e200, 1.0], &[f64::INFINITY, 0.0]] {
             meter.add(bad).unwrap_err();
@@ -170,6 +170,6 @@ mod tests {
         let mut information = [0.0; 4];
         meter.information(&mut information).unwrap();
         assert_eq!(information, [1.0, 2.0, 2.0, 4.0]);
-        assert!(Excitation::<f64>::new(0, 1, 3).is_err());
+        assert!(InformationWindow::<f64>::new(0, 1, 3).is_err());
     }
 }

@@ -1,0 +1,77 @@
+//! What an estimator is made of. It never changes while samples come.
+
+use super::{Estimator, EstimatorState};
+use crate::gates::{AnyGate, Gate};
+use crate::monitor::Monitor;
+use crate::rates::Rate;
+use crate::rules::Forgetting;
+use crate::weighting::Weighting;
+use crate::{Factor, Memory, Prior, Real};
+use forgetting_kernels::kernel::form::Form;
+
+/// Rule, rate, weighting, gate and prior, and what follows from them.
+#[derive(Clone, Debug)]
+pub(super) struct Design<F, R, W, M: Memory> {
+    pub rule: F,
+    pub rate: R,
+    pub weighting: W,
+    pub gate: AnyGate<M>,
+    pub prior: Prior<M>,
+    /// what every sample does to P, if that is all that there is to do
+    pub steady: Option<Steady<M::Real>>,
+    /// the element of D beyond which P counts as wound up, where no monitor says so
+    pub windup_limit: M::Real,
+}
+
+/// The same λ and the same form of forgetting for every sample, of one row and one target.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Steady<T> {
+    pub lambda: T,
+    pub form: Form<T>,
+}
+
+impl<F, R, W, M> Design<F, R, W, M>
+where
+    F: Forgetting<M>,
+    R: Rate<M>,
+    W: Weighting<M>,
+    M: Memory,
+{
+    /// From these parts.
+    pub fn new(rule: F, rate: R, weighting: W, gate: AnyGate<M>, prior: Prior<M>) -> Self {
+        let memory = prior.memory();
+        let plain =
+            (memory.rows(), memory.targets()) == (1, 1) && weighting.is_equal() && gate.is_open();
+        let steady = rate
+            .constant()
+            .filter(|_| plain)
+            .map(|lambda| lambda.max(M::Real::EPSILON))
+            .and_then(|lambda| rule.form(lambda).map(|form| Steady { lambda, form }));
+        let windup = M::Real::from_f64(Estimator::<F, R, W, M>::WINDUP);
+        let windup_limit = windup * prior.factor().largest();
+        Self { rule, rate, weighting, gate, prior, steady, windup_limit }
+    }
+
+    /// The same with another gate.
+    pub fn with_gate(self, gate: AnyGate<M>) -> Self {
+        Self::new(self.rule, self.rate, self.weighting, gate, self.prior)
+    }
+
+    /// The state before the first sample.
+    pub fn start(&self, monitored: bool) -> EstimatorState<F, R, M> {
+        let (memory, factor) = (self.prior.memory(), self.prior.factor());
+        EstimatorState {
+            monitor: monitored.then(|| self.monitor(&factor)),
+            theta: self.prior.theta().clone(),
+            rule: self.rule.start(memory),
+            rate: self.rate.start(memory),
+            samples: 0,
+            factor,
+        }
+    }
+
+    /// A monitor that starts at this P.
+    pub fn monitor(&self, factor: &Factor<M>) -> Monitor<M> {
+        Monitor::new(factor, self.rule.is_bounded())
+    }
+}

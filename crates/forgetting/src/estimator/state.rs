@@ -1,0 +1,41 @@
+//! What the next sample needs of those before it.
+
+use crate::monitor::Monitor;
+use crate::rates::Rate;
+use crate::rules::Forgetting;
+use crate::state::{State, Visitor, MOST_SAMPLES};
+use crate::{Factor, Memory, Real};
+
+/// θ, P, what rule and rate remember, the number of samples, and the monitor if there is one.
+#[derive(Clone, Debug)]
+pub(crate) struct EstimatorState<F: Forgetting<M>, R: Rate<M>, M: Memory> {
+    pub factor: Factor<M>,
+    pub theta: M::Parameters,
+    pub rule: F::State,
+    pub rate: R::State,
+    /// samples used
+    pub samples: u64,
+    pub monitor: Option<Monitor<M>>,
+}
+
+impl<F: Forgetting<M>, R: Rate<M>, M: Memory> State<M::Real> for EstimatorState<F, R, M> {
+    fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
+        self.factor.visit(visitor);
+        visitor.reals(self.theta.as_mut());
+        self.rule.visit(visitor);
+        self.rate.visit(visitor);
+        visitor.whole(&mut self.samples);
+        if let Some(monitor) = &mut self.monitor {
+            monitor.visit(visitor);
+        }
+    }
+
+    fn is_sound(&self) -> bool {
+        self.theta.as_ref().iter().all(|x| x.is_finite())
+            && self.factor.is_sound()
+            && self.rule.is_sound()
+            && self.rate.is_sound()
+            && self.samples <= MOST_SAMPLES
+            && self.monitor.as_ref().is_none_or(State::is_sound)
+    }
+}
