@@ -159,7 +159,7 @@ impl<T: Number> Outputs<T> {
             leverage.extend(told.iter().map(|told| told.leverage));
         }
         for told in told {
-            self.note_rest(&estimator.update_of(told));
+            self.note_rest(&estimator.report(told));
         }
     }
 
@@ -199,17 +199,17 @@ impl<T: Number> Outputs<T> {
         [&self.variance, &self.covariance, &self.prior_covariance].into_iter().any(Option::is_some)
     }
 
-    /// Lets `advance` write θ after each of at most `most` samples of n numbers, if θ is kept, and
+    /// Lets `update_many` write θ after each of at most `most` samples of n numbers, if θ is kept, and
     /// keeps those of as many samples as it says it took.
     pub fn with_thetas(
         &mut self,
         (most, n): (usize, usize),
-        advance: impl FnOnce(&mut [T]) -> usize,
+        update_many: impl FnOnce(&mut [T]) -> usize,
     ) -> usize {
-        let Some(theta) = &mut self.theta else { return advance(&mut []) };
+        let Some(theta) = &mut self.theta else { return update_many(&mut []) };
         let before = theta.len();
         theta.resize(before + most * n, T::ZERO);
-        let taken = advance(&mut theta[before..]);
+        let taken = update_many(&mut theta[before..]);
         theta.truncate(before + taken * n);
         taken
     }

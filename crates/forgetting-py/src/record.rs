@@ -149,7 +149,7 @@ fn samples<T: Number>(
             outputs.note_prior(estimator, true);
         } else {
             let update =
-                estimator.update_weighted(phi, y, noise.at(k, p)).map_err(|error| (k, error))?;
+                estimator.update_with_noise(phi, y, noise.at(k, p)).map_err(|error| (k, error))?;
             outputs.note(&update);
             outputs.note_prior(estimator, false);
         }
@@ -174,7 +174,7 @@ fn several<T: Number>(
     let mut told = [Outcome::default(); MOST];
     let (most, n) = (MOST.min(y.len()), estimator.theta().len());
     let taken = outputs
-        .with_thetas((most, n), |thetas| estimator.advance(phi, y, &mut told[..most], thetas));
+        .with_thetas((most, n), |thetas| estimator.update_many(phi, y, &mut told[..most], thetas));
     outputs.note_all(estimator, &told[..taken]);
     taken
 }

@@ -25,13 +25,13 @@ pub fn update<T: Number>(
         let (phi, y) = (owned("phi", phi)?, owned("y", y)?);
         let gamma = gamma.map(|gamma| owned("gamma", gamma)).transpose()?;
         let noise = gamma.as_deref().map_or(Noise::Unit, noise);
-        let update = estimator.update_weighted(&phi, &y, noise).map_err(raise)?;
+        let update = estimator.update_with_noise(&phi, &y, noise).map_err(raise)?;
         return Update::new(&update, rows, targets);
     }
     let mut update = |noise: Noise<'_, T>| {
         with_slice("phi", phi, |phi: &[T]| {
             with_slice("y", y, |y: &[T]| {
-                let update = estimator.update_weighted(phi, y, noise).map_err(raise)?;
+                let update = estimator.update_with_noise(phi, y, noise).map_err(raise)?;
                 Update::new(&update, rows, targets)
             })
         })

@@ -58,7 +58,7 @@ fn an_update_allocates_nothing() {
                 let phi: [f64; 8] = std::array::from_fn(|i| ((k * 8 + i) as f64).sin());
                 let y = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
                 let (phi, y) = (&phi[..rows * 4], &y[..rows * 3]);
-                estimator.update_weighted(phi, y, noise).unwrap();
+                estimator.update_with_noise(phi, y, noise).unwrap();
             }
         });
         assert_eq!(count, 0, "{}", about.name);

@@ -11,24 +11,23 @@ mod accessors;
 mod any;
 mod design;
 mod diagnostics;
+mod many;
 mod state;
 mod statistics;
 mod steps;
 
 use crate::gates::{AnyGate, Open};
 use crate::rates::Rate;
-use crate::rules::{Forgetting, Forgotten};
-use crate::sample::{Answer, Noise, SampleBuffers, Skip, Update, Whitened, Work};
+use crate::rules::Forgetting;
+use crate::sample::{Noise, SampleBuffers, Update, Work};
 use crate::weighting::Weighting;
-use crate::{Error, Memory, Prior, Real};
+use crate::{Error, Memory, Prior};
 #[cfg(feature = "alloc")]
 pub use any::AnyEstimator;
-use design::{Design, Steady};
+use design::Design;
 use diagnostics::Diagnostics;
 use forgetting_kernels::kernel::outcome::Outcome;
-use forgetting_kernels::kernel::watch::Observations;
 use state::EstimatorState;
-use steps::forgotten;
 
 /// Recursive least squares with the forgetting rule `F`, the rate `R` and the weighting `W`.
 ///
@@ -104,7 +103,7 @@ where
         self.state = self.design.start(self.state.monitor.is_some());
     }
 
-    /// Watches from now on: [`Estimator::health`] tells what it sees. O(n) a sample.
+    /// Monitors windup, excitation and noise from now on; see [`Estimator::health`]. O(n) a sample.
     pub fn watch(&mut self) {
         self.state.monitor = Some(self.design.monitor(&self.state.factor));
     }
@@ -127,7 +126,7 @@ where
     /// [`Error`] names what was wrong; the estimator is as it was, bit for bit.
     #[inline]
     pub fn update(&mut self, phi: &[M::Real], y: &[M::Real]) -> Result<Update<'_, M::Real>, Error> {
-        self.update_weighted(phi, y, Noise::Unit)
+        self.update_with_noise(phi, y, Noise::Unit)
     }
 
     /// Takes a sample with the noise covariance Γ = `noise`.
@@ -135,93 +134,22 @@ where
     /// # Errors
     /// [`Error`] names what was wrong; the estimator is as it was, bit for bit.
     #[inline]
-    pub fn update_weighted(
+    pub fn update_with_noise(
         &mut self,
         phi: &[M::Real],
         y: &[M::Real],
         noise: Noise<'_, M::Real>,
     ) -> Result<Update<'_, M::Real>, Error> {
         let n = self.design.prior.memory().parameters();
-        let mut told = [Outcome::default()];
+        let mut outcome = [Outcome::default()];
         if phi.len() == n
             && y.len() == 1
             && matches!(noise, Noise::Unit)
-            && self.advance(phi, y, &mut told, &mut []) == 1
+            && self.update_many(phi, y, &mut outcome, &mut []) == 1
         {
-            self.buffers.sample.innovations.as_mut()[0] = told[0].error;
-            return Ok(self.tell(self.buffers.sample.innovations.as_ref(), &told[0]));
+            self.buffers.sample.innovations.as_mut()[0] = outcome[0].error;
+            return Ok(self.report_of(self.buffers.sample.innovations.as_ref(), &outcome[0]));
         }
         self.update_in_steps(phi, y, noise)
-    }
-
-    /// Takes samples of n numbers `phi` and one number `y` each, one after the other and all in
-    /// one go; returns how many it took, as many as `told` has room for at most.
-    ///
-    /// It takes none where it has more to do than to forget, measure and correct (a variable rate,
-    /// a gate, …), and stops before a sample that it cannot use: [`Estimator::update`]
-    /// takes the next one or says what is wrong with it. The result is that of as many calls of
-    /// that: bit for bit up to ten parameters, to rounding above. `thetas` has room for n numbers a
-    /// sample, θ after it, or is empty.
-    #[inline]
-    pub fn advance(
-        &mut self,
-        phi: &[M::Real],
-        y: &[M::Real],
-        told: &mut [Outcome<M::Real>],
-        thetas: &mut [M::Real],
-    ) -> usize {
-        let Self { design, state, buffers } = self;
-        let Some(steady) = design.steady.filter(|_| !buffers.diagnostics.keeps_prior()) else {
-            return 0;
-        };
-        // the monitor looks at P now and then
-        let room = state.monitor.as_ref().map_or(told.len(), |monitor| monitor.room(told.len()));
-        let told = &mut told[..room];
-        let (scratch, theta) = (buffers.work.scratch.as_mut(), state.theta.as_mut());
-        let taken = state.factor.advance(steady.form, (phi, y), scratch, theta, (told, thetas));
-        state.samples += told[..taken].iter().filter(|told| told.used).count() as u64;
-        self.show(steady.lambda, phi, &mut told[..taken]);
-        taken
-    }
-
-    /// Shows samples to the monitor, and notes what it says of each.
-    #[inline]
-    fn show(&mut self, lambda: M::Real, phi: &[M::Real], told: &mut [Outcome<M::Real>]) {
-        let EstimatorState { factor, monitor, .. } = &mut self.state;
-        let Some(monitor) = monitor else { return };
-        let samples = Observations { forgetting_factor: lambda, phi, outcomes: told };
-        let wound_up = monitor.watch(factor, samples);
-        told[..wound_up].iter_mut().for_each(|told| told.windup = true);
-        if let Some(last) = told.last_mut() {
-            last.windup = monitor.windup();
-        }
-    }
-
-    /// What a sample told that [`Estimator::advance`] took.
-    #[inline]
-    pub fn update_of<'a>(&self, told: &'a Outcome<M::Real>) -> Update<'a, M::Real> {
-        self.tell(core::slice::from_ref(&told.error), told)
-    }
-
-    #[inline]
-    fn tell<'a>(&self, error: &'a [M::Real], told: &Outcome<M::Real>) -> Update<'a, M::Real> {
-        let n = self.design.prior.memory().parameters();
-        let (lambda, forgotten) = match self.design.steady {
-            Some(Steady { lambda, form }) => (lambda, forgotten(form, told.forgot, n)),
-            None => (M::Real::ONE, Forgotten::rank(0)),
-        };
-        Update {
-            error,
-            leverage: told.leverage,
-            forgetting_factor: forgotten.forgetting_factor.map_or(lambda, M::Real::from_f64),
-            rank: forgotten.rank,
-            skipped: (!told.used).then_some(Skip::DeadZone),
-            gate: Answer::Update,
-            windup: match &self.state.monitor {
-                Some(_) => told.windup,
-                None => told.largest > self.design.windup_limit,
-            },
-            whitened: Whitened::Row { errors: error, noise: M::Real::ONE },
-        }
     }
 }

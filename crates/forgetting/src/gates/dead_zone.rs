@@ -98,9 +98,9 @@ mod tests {
             Estimator::new(Exponential::new(), rate, Equal::new(), prior).with_gate(gate);
         // lengths 3 and 5, over √4
         let y = [3.0, 3.0, 0.0, 4.0];
-        let update = estimator.update_weighted(&[1.0, 1.0], &y, Noise::Scalar(4.0)).unwrap();
+        let update = estimator.update_with_noise(&[1.0, 1.0], &y, Noise::Scalar(4.0)).unwrap();
         assert_eq!(update.skipped, Some(Skip::Gate), "2.5 is not above 2.5");
-        let update = estimator.update_weighted(&[1.0, 1.0], &y, Noise::Scalar(3.9)).unwrap();
+        let update = estimator.update_with_noise(&[1.0, 1.0], &y, Noise::Scalar(3.9)).unwrap();
         assert_eq!((update.skipped, update.gate), (None, Answer::Update));
     }
 }

@@ -138,7 +138,7 @@ mod tests {
         let prior = Prior::scalar(memory, 2.0).unwrap();
         let mut estimator = Estimator::new(Exponential::new(), rate, Equal::new(), prior);
         let noise = [1.0, 0.0, 0.0, 4.0];
-        estimator.update_weighted(&[1.0, 1.0, 2.0, 0.0], &[1.0, 4.0], Noise::Full(&noise)).unwrap();
+        estimator.update_with_noise(&[1.0, 1.0, 2.0, 0.0], &[1.0, 4.0], Noise::Full(&noise)).unwrap();
         let next = estimator.update(&[1.0, 0.0, 0.0, 1.0], &[0.0, 0.0]).unwrap().forgetting_factor;
         assert!((next - (1.0 - 15.0 / 11.0 / 100.0)).abs() < 1e-15);
     }

@@ -13,8 +13,8 @@ mod orthogonalize;
 mod skip;
 mod update;
 
-use crate::{Error, Memory, Real};
-use forgetting_kernels::kernel::functions::{add_scaled, dot};
+use crate::{Memory, Real};
+use forgetting_kernels::kernel::functions::dot;
 
 pub use answer::Answer;
 pub(crate) use buffers::SampleBuffers;
@@ -131,40 +131,6 @@ impl<'a, M: Memory> Sample<'a, M> {
             *x *= c;
         }
         self.scaled *= c;
-    }
-
-    /// Whitens the sample by the p x p matrix `gamma` = L Lᵀ: φ̄ = L⁻¹φ, ē = L⁻¹e.
-    ///
-    /// `gamma` becomes L. The sample is untouched if that fails.
-    ///
-    /// # Errors
-    /// [`Error::Indefinite`] unless `gamma` is positive definite.
-    pub fn whiten(&mut self, gamma: &mut [M::Real]) -> Result<(), Error> {
-        let p = self.rows;
-        cholesky(gamma, p, "gamma")?;
-        for i in 0..p {
-            for k in 0..i {
-                self.subtract_row(i, gamma[i * p + k], k);
-            }
-            self.scale_row(i, M::Real::ONE / gamma[i * p + i]);
-        }
-        Ok(())
-    }
-
-    /// Row i −= c·row k, k < i, in φ̄ and ē.
-    fn subtract_row(&mut self, i: usize, c: M::Real, k: usize) {
-        let (n, m) = (self.memory.parameters(), self.memory.targets());
-        for (block, width) in [(&mut *self.regressors, n), (&mut *self.errors, m)] {
-            let (above, from) = block.split_at_mut(i * width);
-            add_scaled(&mut from[..width], -c, &above[k * width..(k + 1) * width]);
-        }
-    }
-
-    fn scale_row(&mut self, i: usize, c: M::Real) {
-        let (n, m) = (self.memory.parameters(), self.memory.targets());
-        for (block, width) in [(&mut *self.regressors, n), (&mut *self.errors, m)] {
-            block[i * width..(i + 1) * width].iter_mut().for_each(|x| *x *= c);
-        }
     }
 
     /// Sets the rows of φ̄ that are not longer than `least` to zero.

@@ -97,7 +97,7 @@ mod tests {
         let (rate, prior) = (Constant::new(1.0).unwrap(), Prior::scalar(memory, 1.0).unwrap());
         let huber = Huber::new(2.0).unwrap();
         let mut estimator = Estimator::new(NoForgetting::new(), rate, huber, prior);
-        let update = estimator.update_weighted(&[3.0], &[12.0], Noise::Scalar(9.0)).unwrap();
+        let update = estimator.update_with_noise(&[3.0], &[12.0], Noise::Scalar(9.0)).unwrap();
         assert_eq!(update.error, [12.0]);
         assert!((update.leverage - 0.5).abs() < 1e-15);
         assert!((estimator.theta()[0] - 2.0 / 1.5).abs() < 1e-15);

@@ -56,7 +56,7 @@ fn check(subject: &Subject, sizes: (usize, usize, usize), gate: &AnyGate<Dynamic
             0 => (Noise::Unit, &unit),
             _ => (Noise::Full(gamma), gamma),
         };
-        let update = estimator.update_weighted(phi, y, noise).unwrap();
+        let update = estimator.update_with_noise(phi, y, noise).unwrap();
         update.whiten(&mut v).unwrap();
         let (error, leverage) = (update.error.to_vec(), update.leverage);
         estimator.prior_factor().unwrap().reconstruct(&mut prior);
@@ -65,7 +65,7 @@ fn check(subject: &Subject, sizes: (usize, usize, usize), gate: &AnyGate<Dynamic
             let off = (found - expected).abs() / (1.0 + expected.abs());
             assert!(off < TOLERANCE, "{subject:?}, sample {k}: {found} {expected} {leverage}");
         }
-        let told = unasked.update_weighted(phi, y, noise).unwrap();
+        let told = unasked.update_with_noise(phi, y, noise).unwrap();
         assert_eq!(told.leverage.to_bits(), leverage.to_bits(), "{subject:?}: asking changes it");
     }
     assert_eq!(estimator.theta(), unasked.theta(), "{subject:?}");
@@ -100,7 +100,7 @@ fn the_weight_divides_the_noise_covariance() {
         AnyWeighting::Huber(Huber::new(2.0).unwrap()),
         Prior::scalar(memory, 1.0).unwrap(),
     );
-    let update = estimator.update_weighted(&[3.0], &[12.0], Noise::Scalar(9.0)).unwrap();
+    let update = estimator.update_with_noise(&[3.0], &[12.0], Noise::Scalar(9.0)).unwrap();
     let mut v = [0.0];
     update.whiten(&mut v).unwrap();
     assert!((v[0] - 12.0 / 27f64.sqrt()).abs() < 1e-15);
@@ -131,7 +131,7 @@ fn the_watch_sees_the_same_whichever_way_the_sample_takes() {
         slow.keep_prior(true);
         let (mut told, mut k) = (vec![Outcome::default(); data.len()], 0);
         while k < data.len() {
-            let taken = at_once.advance(&phi[3 * k..], &y[k..], &mut told[k..], &mut []);
+            let taken = at_once.update_many(&phi[3 * k..], &y[k..], &mut told[k..], &mut []);
             many += usize::from(taken > 1);
             if taken == 0 {
                 at_once.update(&phi[3 * k..3 * k + 3], &y[k..=k]).unwrap();
@@ -144,7 +144,7 @@ fn the_watch_sees_the_same_whichever_way_the_sample_takes() {
             let other = slow.update(phi, y).unwrap();
             assert_eq!(told_one, (other.leverage.to_bits(), other.windup, other.skipped));
             if told[k].used {
-                let other = at_once.update_of(&told[k]);
+                let other = at_once.report(&told[k]);
                 assert_eq!(told_one, (other.leverage.to_bits(), other.windup, other.skipped));
             }
         }

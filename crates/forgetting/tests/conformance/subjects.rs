@@ -131,7 +131,7 @@ pub struct Outcome {
     pub windup: bool,
 }
 
-/// `Estimator::update_weighted`, not inlined: all rules are in it, and compiled once this way.
+/// `Estimator::update_with_noise`, not inlined: all rules are in it, and compiled once this way.
 #[inline(never)]
 pub fn update<F, R, W, M>(
     estimator: &mut Estimator<F, R, W, M>,
@@ -145,7 +145,7 @@ where
     W: Weighting<M>,
     M: Memory,
 {
-    estimator.update_weighted(phi, y, noise).map(|update| Outcome {
+    estimator.update_with_noise(phi, y, noise).map(|update| Outcome {
         error: update.error.iter().map(|x| x.to_f64()).collect(),
         leverage: update.leverage.to_f64(),
         forgetting_factor: update.forgetting_factor.to_f64(),

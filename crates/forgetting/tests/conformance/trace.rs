@@ -86,7 +86,7 @@ fn check<T: Kernels>(subject: &Subject, trial: &Trial, in_one_go: usize) {
     while k < trial.regressors.len() {
         let most = in_one_go.min(trial.regressors.len() - k);
         let mut told = vec![Outcome::default(); most];
-        let taken = estimator.advance(&phi[k * p * n..], &y[..most], &mut told, &mut []);
+        let taken = estimator.update_many(&phi[k * p * n..], &y[..most], &mut told, &mut []);
         if taken == 0 {
             // a sample may be refused, but not break anything
             let sample = &phi[k * p * n..][..p * n];

@@ -107,10 +107,10 @@ fn follow<F: Forgetting<Dynamic<T>>, T: Kernels>(rule: F, n: usize, watched: Wat
     let (mut told, mut thetas) = ([Outcome::default(); 17], vec![T::ZERO; 17 * n]);
     let (mut k, mut windups) = (0, 0u64);
     while k < SAMPLES {
-        let taken = together.advance(&phi[k * n..], &y[k..], &mut told, &mut thetas);
+        let taken = together.update_many(&phi[k * n..], &y[k..], &mut told, &mut thetas);
         for (told, after) in told[..taken].iter().zip(thetas.chunks(n)) {
             let one = apart.update(&phi[k * n..(k + 1) * n], &y[k..=k]).unwrap();
-            let many = together.update_of(told);
+            let many = together.report(told);
             assert_eq!(
                 (one.forgetting_factor, one.rank, one.skipped),
                 (many.forgetting_factor, many.rank, many.skipped),

@@ -97,7 +97,7 @@ pub fn take<F: Forgetting<M>, M: Memory>(
     y: &[M::Real],
     noise: Noise<'_, M::Real>,
 ) -> Result<M::Real, Error> {
-    estimator.update_weighted(phi, y, noise).map(|update| update.forgetting_factor)
+    estimator.update_with_noise(phi, y, noise).map(|update| update.forgetting_factor)
 }
 
 /// λ of samples `from..to`, as bits.

@@ -1,0 +1,104 @@
+//! Many samples in one call, where there is nothing to do but to forget, measure and correct.
+
+use super::design::Steady;
+use super::steps::forgotten;
+use super::{Estimator, EstimatorState};
+use crate::rates::Rate;
+use crate::rules::{Forgetting, Forgotten};
+use crate::sample::{Answer, Skip, Update, Whitened};
+use crate::weighting::Weighting;
+use crate::{Memory, Real};
+use forgetting_kernels::kernel::outcome::Outcome;
+use forgetting_kernels::kernel::watch::Observations;
+
+impl<F, R, W, M> Estimator<F, R, W, M>
+where
+    F: Forgetting<M>,
+    R: Rate<M>,
+    W: Weighting<M>,
+    M: Memory,
+{
+    /// Takes samples of n numbers `phi` and one number `y` each, in one call; writes what became of
+    /// each to `outcomes` and returns how many it took, at most as many as there are outcomes.
+    ///
+    /// It takes none where there is more to do than to forget, measure and correct (a variable
+    /// rate, a gate, several rows, …), and stops before a sample that it cannot use:
+    /// [`Estimator::update`] takes that one, or says what is wrong with it. The result is that of
+    /// one update a sample: bit for bit up to ten parameters, to rounding above. `thetas` is empty,
+    /// or has room for n numbers a sample: θ after it.
+    #[inline]
+    pub fn update_many(
+        &mut self,
+        phi: &[M::Real],
+        y: &[M::Real],
+        outcomes: &mut [Outcome<M::Real>],
+        thetas: &mut [M::Real],
+    ) -> usize {
+        let Self { design, state, buffers } = self;
+        let Some(steady) = design.steady.filter(|_| !buffers.diagnostics.keeps_prior()) else {
+            return 0;
+        };
+        // no further than to where the monitor looks at P
+        let most = outcomes.len();
+        let outcomes = &mut outcomes[..state.monitor.as_ref().map_or(most, |m| m.room(most))];
+        let (scratch, theta) = (buffers.work.scratch.as_mut(), state.theta.as_mut());
+        let results = (&mut *outcomes, thetas);
+        let taken = state.factor.advance(steady.form, (phi, y), scratch, theta, results);
+        let outcomes = &mut outcomes[..taken];
+        state.samples += outcomes.iter().filter(|outcome| outcome.used).count() as u64;
+        state.monitor_many(steady.lambda, phi, outcomes);
+        taken
+    }
+
+    /// What an update would have reported of a sample that [`Estimator::update_many`] took.
+    #[inline]
+    pub fn report<'a>(&self, outcome: &'a Outcome<M::Real>) -> Update<'a, M::Real> {
+        self.report_of(core::slice::from_ref(&outcome.error), outcome)
+    }
+
+    /// The same with the error where it is stored.
+    #[inline]
+    pub(super) fn report_of<'a>(
+        &self,
+        error: &'a [M::Real],
+        outcome: &Outcome<M::Real>,
+    ) -> Update<'a, M::Real> {
+        let n = self.design.prior.memory().parameters();
+        let (lambda, forgotten) = match self.design.steady {
+            Some(Steady { lambda, form }) => (lambda, forgotten(form, outcome.forgot, n)),
+            None => (M::Real::ONE, Forgotten::rank(0)),
+        };
+        Update {
+            error,
+            leverage: outcome.leverage,
+            forgetting_factor: forgotten.forgetting_factor.map_or(lambda, M::Real::from_f64),
+            rank: forgotten.rank,
+            skipped: (!outcome.used).then_some(Skip::DeadZone),
+            gate: Answer::Update,
+            windup: match &self.state.monitor {
+                Some(_) => outcome.windup,
+                None => outcome.largest > self.design.windup_limit,
+            },
+            whitened: Whitened::Row { errors: error, noise: M::Real::ONE },
+        }
+    }
+}
+
+impl<F: Forgetting<M>, R: Rate<M>, M: Memory> EstimatorState<F, R, M> {
+    /// Shows samples to the monitor, if there is one, and notes whether P had wound up after each.
+    #[inline]
+    fn monitor_many(
+        &mut self,
+        lambda: M::Real,
+        phi: &[M::Real],
+        outcomes: &mut [Outcome<M::Real>],
+    ) {
+        let Some(monitor) = &mut self.monitor else { return };
+        let samples = Observations { forgetting_factor: lambda, phi, outcomes: &*outcomes };
+        let wound_up = monitor.watch(&self.factor, samples);
+        outcomes[..wound_up].iter_mut().for_each(|outcome| outcome.windup = true);
+        if let Some(last) = outcomes.last_mut() {
+            last.windup = monitor.windup();
+        }
+    }
+}
