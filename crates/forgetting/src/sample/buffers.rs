@@ -1,4 +1,4 @@
-//! Buffers that an update uses and forgets, made once so that no update allocates.
+//! Buffers that every update writes anew, made once so that no update allocates.
 
 use crate::Memory;
 
@@ -36,9 +36,9 @@ pub(crate) struct SampleBuffers<M: Memory> {
     pub innovations: M::Errors,
     /// p x m: the whitened innovation
     pub errors: M::Errors,
-    /// p x m: the whitened innovation times the weight, as rates see it
+    /// p x m: the whitened innovation times the weight, which is what rates see
     pub clipped: M::Errors,
-    /// p x m: what is left of it as the rows of a sample are used one after the other
+    /// p x m: the whitened innovation, reduced as the rows are measured one after the other
     pub remaining: M::Errors,
     /// p x p: Γ, then its root
     pub noise: M::Noise,

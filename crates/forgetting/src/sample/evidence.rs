@@ -1,9 +1,9 @@
-//! What is known of a sample before it is used: all that a rate, a weighting or a gate may judge by.
+//! What a rate, a weighting or a gate may judge a sample by, before it is used.
 
 use super::Sample;
 use crate::{Factor, Memory, Real};
 
-/// What a rate, a weighting or a gate knows of a sample.
+/// What a rate, a weighting or a gate is shown of a sample.
 ///
 /// Errors are whitened by Γ. A weighting and a gate see them as they are. A rate sees them clipped,
 /// that is multiplied by the weight w: an outlier that moves θ little is no reason to forget. No

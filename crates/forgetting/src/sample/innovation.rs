@@ -6,8 +6,9 @@ use forgetting_kernels::kernel::functions::{add_scaled, dot, multiply_transposed
 /// ē ← L⁻¹ē for p x n numbers `regressors` and p x m numbers `errors`; returns its squared length,
 /// tr ēᵀ(I + φ̄Pφ̄ᵀ)⁻¹ē. Uses p x n numbers `directions` and p x p numbers `identity`.
 ///
-/// I + φ̄Pφ̄ᵀ = V Vᵀ with V = [I, φ̄ U √D]. Gram and Schmidt make the rows of V orthogonal and turn
-/// ē along; as each keeps its own element of I, none becomes shorter than 1, however large P is.
+/// I + φ̄Pφ̄ᵀ = V Vᵀ with V = [I, φ̄ U √D]. Gram–Schmidt makes the rows of V orthogonal, and the same
+/// steps on ē solve for L⁻¹ē. Each row has an element of I that no other has, so that none becomes
+/// shorter than 1, however large P is.
 pub(crate) fn whiten_errors<M: Memory>(
     factor: &Factor<M>,
     regressors: &[M::Real],

@@ -10,10 +10,10 @@ pub fn leverage<M: Memory>(factor: &Factor<M>, sample: &Sample<'_, M>) -> M::Rea
     (0..sample.rows()).fold(M::Real::ZERO, |sum, i| sum + factor.leverage(sample.row(i)))
 }
 
-/// Measures and corrects, row by row, and returns the leverage with the P of before.
+/// Measures and corrects, row by row; returns the leverage with the P before the sample.
 ///
-/// Whitened rows are independent: after each, what the later ones still tell is their
-/// innovation less what the correction explains.
+/// Whitened rows are independent, so they are measured one after the other. After each, the
+/// innovations of the later ones are reduced by what its correction of θ explains.
 pub fn measure_rows<M: Memory>(
     factor: &mut Factor<M>,
     sample: &Sample<'_, M>,

@@ -49,13 +49,13 @@ impl<'a, M: Memory> Sample<'a, M> {
         Self { memory, rows: memory.rows(), regressors, errors, scaled: M::Real::ONE }
     }
 
-    /// What the sample was multiplied with by [`Sample::scale`], in all.
+    /// The product of all factors of [`Sample::scale`].
     #[inline]
     pub(crate) fn scaled(&self) -> M::Real {
         self.scaled
     }
 
-    /// Takes back into use the rows that were dropped, if all were.
+    /// Brings all rows back if all were dropped.
     #[inline]
     pub(crate) fn restore(&mut self) {
         if self.rows == 0 {

@@ -18,21 +18,21 @@ pub struct Update<'a, T> {
     pub skipped: Option<Skip>,
     /// what the gate said
     pub gate: Answer,
-    /// whether P has wound up: as the watch says ([`Health::windup`](crate::Health)) if there is
+    /// whether P has wound up: as the monitor says ([`Health::windup`](crate::Health)) if there is
     /// one, else whether P has grown beyond [`Estimator::WINDUP`](crate::Estimator::WINDUP) times
     /// its first value
     pub windup: bool,
     pub(crate) whitened: Whitened<'a, T>,
 }
 
-/// What L⁻¹e is made from.
+/// What L⁻¹e is computed from.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Whitened<'a, T> {
     /// one row: ē as the rule left it, and the variance of its noise
     Row { errors: &'a [T], noise: T },
     /// several rows: L⁻¹e itself
     Rows(&'a [T]),
-    /// several rows, and nobody asked
+    /// several rows, and it was not asked for
     Unknown,
 }
 

@@ -60,19 +60,21 @@ impl<'a> Reader<'a> {
     }
 
     /// A value; one that is a choice in itself only at the first `level`.
-    fn value(&mut self, level: usize) -> Result<Given, Error> {
+    fn value(&mut self, level: usize) -> Result<SavedValue, Error> {
         match self.byte()? {
-            0 => Ok(Given::Real(f64::from_le_bytes(self.array()?))),
-            1 => self.word().map(Given::Word),
+            0 => Ok(SavedValue::Real(f64::from_le_bytes(self.array()?))),
+            1 => self.word().map(SavedValue::Word),
             2 => {
                 let (rows, columns) = (self.size()?, self.size()?);
                 let bytes = self.take(rows.saturating_mul(columns).saturating_mul(8))?;
                 let number = |b: &[u8]| b.try_into().map_or(f64::NAN, f64::from_le_bytes);
                 let elements: Vec<f64> = bytes.chunks(8).map(number).collect();
                 let at = move |k: usize| elements.get(k).copied().unwrap_or(f64::NAN);
-                Ok(Given::Matrix { rows, columns, elements: Box::new(at) })
+                Ok(SavedValue::Matrix { rows, columns, elements: Box::new(at) })
             }
-            3 if level == 0 => self.choice(1).map(|(name, values)| Given::Choice { name, values }),
+            3 if level == 0 => {
+                self.choice(1).map(|(name, values)| SavedValue::Choice { name, values })
+            }
             _ => Err(Error::State { reason: "a parameter in it is of an unknown kind" }),
         }
     }
@@ -89,24 +91,24 @@ impl<'a> Reader<'a> {
     }
 }
 
-enum Given {
+enum SavedValue {
     Real(f64),
     Word(String),
     Matrix { rows: usize, columns: usize, elements: Box<dyn Fn(usize) -> f64> },
     Choice { name: String, values: Parameters },
 }
 
-struct Parameters(Vec<(String, Given)>);
+struct Parameters(Vec<(String, SavedValue)>);
 
 impl Values for Parameters {
     fn get(&self, name: &str) -> Option<Value<'_>> {
         self.0.iter().find(|(known, _)| known == name).map(|(_, given)| match given {
-            Given::Real(x) => Value::Real(*x),
-            Given::Word(word) => Value::Word(word),
-            Given::Matrix { rows, columns, elements } => {
+            SavedValue::Real(x) => Value::Real(*x),
+            SavedValue::Word(word) => Value::Word(word),
+            SavedValue::Matrix { rows, columns, elements } => {
                 Value::Matrix { rows: *rows, columns: *columns, elements }
             }
-            Given::Choice { name, values } => Value::Choice { name, values },
+            SavedValue::Choice { name, values } => Value::Choice { name, values },
         })
     }
 }

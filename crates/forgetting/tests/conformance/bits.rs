@@ -98,6 +98,32 @@ fn a_save_in_the_middle_changes_no_bit() {
 }
 
 #[test]
+fn work_that_fails_changes_no_bit() {
+    let data = record::<f64>((3, 1, 1), SAMPLES);
+    let (first, rest) = data.split_at(SAMPLES / 2);
+    for subject in subjects() {
+        let mut estimator = subject.estimator::<f64>((3, 1, 1), 0.97, 10.0).unwrap();
+        estimator.watch();
+        feed(&mut estimator, first);
+        let (before, mut whole) = (estimator.to_bytes().unwrap(), estimator.clone());
+        feed(&mut whole, rest);
+        let failed = estimator.all_or_nothing(|estimator| {
+            feed(estimator, rest);
+            assert!(estimator.to_bytes().unwrap() != before, "{subject:?}");
+            Err::<(), _>("failed")
+        });
+        assert_eq!(failed, Err("failed"));
+        assert!(estimator.to_bytes().unwrap() == before, "{subject:?}");
+        let done = estimator.all_or_nothing(|estimator| {
+            feed(estimator, rest);
+            Ok::<_, ()>(estimator.samples())
+        });
+        assert_eq!(done, Ok(whole.samples()));
+        assert!(estimator.to_bytes().unwrap() == whole.to_bytes().unwrap(), "{subject:?}");
+    }
+}
+
+#[test]
 fn a_damaged_save_is_refused() {
     for subject in subjects() {
         let mut estimator = subject.estimator::<f64>((3, 1, 1), 0.97, 10.0).unwrap();
