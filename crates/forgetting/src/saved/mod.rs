@@ -7,14 +7,14 @@
 //! | number type | one byte, 4 or 8: the bytes of a number |
 //! | sizes | n, p, m as 32-bit numbers |
 //! | form of P₀ | one byte |
-//! | watched | one byte, 0 or 1 |
+//! | monitored | one byte, 0 or 1 |
 //! | rule, rate, weighting, gate | each a name and its parameters by name; a rule may be a parameter |
 //! | numbers | the prior, then the state, in the order of `visit` |
 //! | check | CRC-32 of all before it |
 //!
 //! All numbers are little-endian. Numbers of the state are kept bit for bit.
 //!
-//! Version 1 had no gate, which is read as open, and another watch, which starts anew.
+//! Version 1 had no gate: it is read as open. Its monitor held other numbers: a new one starts.
 
 use crate::gates::{AnyGate, Gate, Open};
 use crate::parameter::{Value, Values};
@@ -59,13 +59,13 @@ impl<T: Kernels> AnyEstimator<T> {
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
         let body = checked(bytes)?;
         let mut reader = read::Reader::new(&body[MARK.len() + 1..]);
-        let (mut estimator, old_watch) = read::header::<T>(&mut reader, body[MARK.len()])?;
+        let (mut estimator, old_monitor) = read::header::<T>(&mut reader, body[MARK.len()])?;
         estimator.visit(&mut reader);
-        if old_watch {
-            reader.skip_old_watch::<T>(estimator.prior().memory().parameters())?;
+        if old_monitor {
+            reader.skip_old_monitor::<T>(estimator.prior().memory().parameters())?;
         }
         reader.finish()?;
-        if old_watch {
+        if old_monitor {
             estimator.watch();
         }
         if estimator.check_read() {

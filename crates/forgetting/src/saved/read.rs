@@ -34,8 +34,8 @@ impl<'a> Reader<'a> {
         Ok(taken)
     }
 
-    /// Passes over the watch of version 1: three vectors of n numbers, nine numbers, three counts.
-    pub fn skip_old_watch<T: Kernels>(&mut self, n: usize) -> Result<(), Error> {
+    /// Passes over the monitor of version 1: three vectors of n numbers, nine numbers, three counts.
+    pub fn skip_old_monitor<T: Kernels>(&mut self, n: usize) -> Result<(), Error> {
         self.take((3 * n + 9) * T::BYTES + 3 * 8).map(|_| ())
     }
 
@@ -114,7 +114,7 @@ impl Values for Parameters {
 }
 
 /// The estimator described before the numbers, with the prior's numbers but its first state; and
-/// whether a watch of version 1 follows its numbers, which remembered less than those now.
+/// whether the monitor of version 1, which held fewer numbers than today's, follows.
 pub fn header<T: Kernels>(
     reader: &mut Reader<'_>,
     version: u8,
@@ -124,7 +124,7 @@ pub fn header<T: Kernels>(
     }
     let memory = Dynamic::new(reader.size()?, reader.size()?, reader.size()?)?;
     let form = reader.byte()?;
-    let watched = reader.byte()? == 1;
+    let monitored = reader.byte()? == 1;
     let (name, parameters) = reader.choice(0)?;
     let rule = Rule::named(&name, &parameters, memory)?;
     let (name, parameters) = reader.choice(0)?;
@@ -147,11 +147,11 @@ pub fn header<T: Kernels>(
         return Err(Error::State { reason: "its numbers are not those of a prior" });
     }
     let mut estimator = Estimator::new(rule, rate, weighting, prior).with_gate(gate);
-    let old_watch = watched && version == 1;
-    if watched && !old_watch {
+    let old_monitor = monitored && version == 1;
+    if monitored && !old_monitor {
         estimator.watch();
     }
-    Ok((estimator, old_watch))
+    Ok((estimator, old_monitor))
 }
 
 impl<T: Real> Visitor<T> for Reader<'_> {
