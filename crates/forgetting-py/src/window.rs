@@ -52,7 +52,7 @@ impl InformationWindow {
     /// Samples taken so far.
     #[getter]
     fn seen(&self) -> u64 {
-        self.window.seen()
+        self.window.samples()
     }
 
     /// Samples in a full window.

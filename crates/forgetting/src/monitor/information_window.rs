@@ -8,8 +8,8 @@
 //! ```
 //!
 //! Subtracting is safe here because it does not last: every N samples A is replaced by a sum that
-//! nothing was ever subtracted from. What rounding can do in between is at most N ε times the
-//! largest β seen since, which is returned beside the eigenvalues: an α below it is 0.
+//! nothing was subtracted from. Until then rounding adds up to at most about N ε times the largest
+//! trace of A since ([`InformationWindow::noise`]): an eigenvalue below that is 0.
 
 use crate::parameter::{Parameter, Range};
 use crate::{Error, Real};
@@ -29,7 +29,7 @@ pub struct InformationWindow<T> {
     fresh: Vec<T>,
     /// the largest trace of A since B began
     largest: T,
-    seen: u64,
+    count: u64,
 }
 
 impl<T: Real> InformationWindow<T> {
@@ -50,7 +50,7 @@ impl<T: Real> InformationWindow<T> {
             sum: vec![T::ZERO; parameters * parameters],
             fresh: vec![T::ZERO; parameters * parameters],
             largest: T::ZERO,
-            seen: 0,
+            count: 0,
         })
     }
 
@@ -67,15 +67,15 @@ impl<T: Real> InformationWindow<T> {
             let allowed = "finite numbers with a square in range";
             return Err(Error::Value { parameter: "phi", index: Some(index), value, allowed });
         }
-        let place = (self.seen % self.window as u64) as usize;
+        let place = (self.count % self.window as u64) as usize;
         let oldest = &mut self.samples[place * length..(place + 1) * length];
         accumulate(&mut self.sum, oldest, -T::ONE, self.parameters);
         oldest.copy_from_slice(phi);
         accumulate(&mut self.sum, phi, T::ONE, self.parameters);
         accumulate(&mut self.fresh, phi, T::ONE, self.parameters);
-        self.seen += 1;
+        self.count += 1;
         self.largest = self.largest.max(self.trace());
-        if self.seen.is_multiple_of(self.window as u64) {
+        if self.count.is_multiple_of(self.window as u64) {
             self.sum.copy_from_slice(&self.fresh);
             self.fresh.fill(T::ZERO);
             self.largest = self.trace();
@@ -103,14 +103,14 @@ impl<T: Real> InformationWindow<T> {
         Ok(())
     }
 
-    /// The size below which an eigenvalue of A cannot be told from rounding.
+    /// The size below which an eigenvalue of A cannot be distinguished from rounding.
     pub fn noise(&self) -> T {
         T::EPSILON * self.largest * T::from_f64((self.window + self.parameters) as f64)
     }
 
-    /// Samples seen; the window is full when there are as many as it is long.
-    pub fn seen(&self) -> u64 {
-        self.seen
+    /// Samples taken so far; the window is full from N on.
+    pub fn samples(&self) -> u64 {
+        self.count
     }
 
     /// N

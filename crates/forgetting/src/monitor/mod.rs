@@ -1,4 +1,4 @@
-//! Watches an estimator while it runs: windup, excitation, noise and whiteness, in O(n) a sample.
+//! Monitors an estimator while it runs: windup, excitation, noise and whiteness, in O(n) a sample.
 //!
 //! ```text
 //! units               s_i² = min P_ii so far, P̃ = S⁻¹ P S⁻¹, φ̃ = φ̄ S, S = diag(s)
@@ -11,35 +11,36 @@
 //! ```
 //!
 //! A direction has wound up when its variance is more than ten times what it was when it last
-//! received information, it receives none now, and the rule sets it no bound. The further it has
-//! wound up, the larger is the share asked for to end that, up to what holds the variance where it
-//! is: beside a large variance the noise of a regressor tells something, too. The one to watch is
-//! the largest eigenvector of P in units of what each parameter was known by at its best: whatever
-//! winds up becomes it, whichever units the parameters have. A block is N = max(10, 2n, half the
-//! memory) samples, so that what costs O(n²) is spread over as many samples.
+//! received information, it receives none now, and the rule does not bound it. Where the variance
+//! is large, even the noise of a regressor brings some information: so the share that ends windup
+//! grows with the variance, up to the share that keeps the variance where it is. Only the weakest
+//! direction is followed, the largest eigenvector of P with each parameter scaled by the smallest
+//! standard deviation it has had: whatever winds up becomes it, in any units. A block is
+//! N = max(10, 2n, half the memory) samples, so that its end, O(n²), costs O(n) a sample.
 
 use crate::state::{is_finite, State, Visitor};
 use crate::{Factor, Memory, Real};
 use forgetting_kernels::kernel::watch::{Observation, Observations, Residual, Silence, Watch};
 use forgetting_kernels::Kernels;
-use weakest::Weakest;
-
+mod health;
 #[cfg(feature = "alloc")]
 mod information_window;
 mod weakest;
 
+pub use health::Health;
 #[cfg(feature = "alloc")]
 pub use information_window::InformationWindow;
+use weakest::Weakest;
 
 /// Growth of the variance of a silent direction that counts as windup.
 pub const FACTOR: f64 = 10.0;
-/// Part of its own variance that a direction must be able to tell to count as informed.
+/// Information over a block, as a share of 1/σ², from which on a direction counts as informed.
 pub const SHARE: f64 = 0.01;
-/// The same for a direction that has wound up by far. Where a block's information and forgetting
-/// balance it is about one half.
+/// The same for a direction that has wound up far. About one half would keep its variance where it
+/// is: as much information comes in a block as is forgotten.
 pub const RECOVERY: f64 = 0.3;
 
-/// The state of the watch.
+/// What is computed over the samples so far. A part of the estimator's state.
 #[derive(Clone, Debug)]
 pub struct Monitor<M: Memory> {
     weakest: Weakest<M>,
@@ -48,7 +49,7 @@ pub struct Monitor<M: Memory> {
     length: M::Real,
     in_block: u64,
     samples: u64,
-    /// samples up to when the weakest direction was last informed
+    /// `samples` when the weakest direction was last informed
     informed: u64,
     /// P_ii as of the last block
     variances: M::Vector,
@@ -56,39 +57,8 @@ pub struct Monitor<M: Memory> {
     silence: M::Vector,
 }
 
-/// What the watch has seen.
-#[derive(Clone, Copy, Debug)]
-pub struct Health<'a, T> {
-    /// whether the weakest direction has wound up
-    pub windup: bool,
-    /// whether the weakest direction is informed now
-    pub informed: bool,
-    /// the weakest direction, a unit vector of n numbers
-    pub direction: &'a [T],
-    /// the smallest variance of each parameter so far
-    pub least_variances: &'a [T],
-    /// the variance in P along the direction
-    pub variance: T,
-    /// its variance over that when it was last informed
-    pub growth: T,
-    /// samples since it was last informed
-    pub since_informed: u64,
-    /// samples since each parameter was excited
-    pub since_excited: &'a [T],
-    /// samples watched
-    pub samples: u64,
-    /// samples in a block
-    pub block: T,
-    /// estimate of the variance of the whitened noise; NaN before the first sample
-    pub noise_variance: T,
-    /// lag-one correlation of the normalized innovations, in [−1, 1]
-    pub correlation: T,
-    /// number of samples that the two estimates before stand on
-    pub weight: T,
-}
-
 impl<M: Memory> Monitor<M> {
-    /// A watch that starts at this P; `bounded` if the rule bounds it without excitation.
+    /// Starts at this P; `bounded` if the rule bounds P without excitation.
     pub fn new(factor: &Factor<M>, bounded: bool) -> Self {
         let memory = factor.memory();
         let mut variances = memory.vector();
@@ -120,8 +90,7 @@ impl<M: Memory> Monitor<M> {
         self.weakest.windup()
     }
 
-    /// How many of `samples` samples may pass before it looks at P again, which it does after the
-    /// last of them.
+    /// How many of `samples` samples fit into this block. P is read after the last of a block.
     #[inline]
     pub fn room(&self, samples: usize) -> usize {
         let (length, before) = (self.length.to_f64(), self.in_block as f64);
@@ -132,7 +101,7 @@ impl<M: Memory> Monitor<M> {
         samples.min((left as usize).max(1))
     }
 
-    /// Notes samples, at most [`room`](Self::room) of them, and P after the last. Returns for how
+    /// Notes `samples`, at most [`room`](Self::room), and P after the last of them. Returns for how
     /// many of the first ones windup still stood.
     #[inline]
     pub fn watch(&mut self, factor: &Factor<M>, samples: Observations<'_, M::Real>) -> usize {
@@ -148,7 +117,7 @@ impl<M: Memory> Monitor<M> {
         self.count(factor, 1);
     }
 
-    /// What a kernel keeps count of.
+    /// The sums that a kernel adds to.
     #[inline]
     fn kernel(&mut self) -> Watch<'_, M::Real> {
         let silence = Silence {
@@ -164,21 +133,21 @@ impl<M: Memory> Monitor<M> {
         self.samples += samples;
         self.in_block += samples;
         if M::Real::from_f64(self.in_block as f64) >= self.length {
-            self.turn(factor);
+            self.end_block(factor);
         }
     }
 
-    /// The end of a block.
+    /// Reads P and starts the next block.
     #[cold]
-    fn turn(&mut self, factor: &Factor<M>) {
+    fn end_block(&mut self, factor: &Factor<M>) {
         factor.variances(self.variances.as_mut());
-        if self.weakest.turn(factor, self.variances.as_ref(), self.samples) {
+        if self.weakest.end_block(factor, self.variances.as_ref(), self.samples) {
             self.informed = self.samples;
         }
         self.start_block();
     }
 
-    /// What the watch has seen.
+    /// What has been found so far.
     pub fn health(&self) -> Health<'_, M::Real> {
         let informed = self.weakest.is_informed();
         Health {

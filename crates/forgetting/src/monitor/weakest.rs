@@ -1,4 +1,5 @@
-//! The direction that is known least, in units of what each parameter was known by at its best.
+//! The direction with the largest variance, each parameter scaled by the smallest standard
+//! deviation it has had.
 
 use super::{FACTOR, RECOVERY, SHARE};
 use crate::state::{is_finite, State, Visitor};
@@ -6,7 +7,7 @@ use crate::{Factor, Memory, Real};
 use forgetting_kernels::kernel::functions::dot;
 use forgetting_kernels::kernel::watch::Gauge;
 
-/// w, and what is told of it.
+/// w, its variance, and the information that it gets.
 #[derive(Clone, Debug)]
 pub(super) struct Weakest<M: Memory> {
     bounded: bool,
@@ -16,7 +17,7 @@ pub(super) struct Weakest<M: Memory> {
     axis: M::Vector,
     /// the same with length 1
     pub direction: M::Vector,
-    /// a buffer
+    /// a buffer: S w of the block before
     before: M::Vector,
     /// σ²
     variance: M::Real,
@@ -50,7 +51,7 @@ impl<M: Memory> Weakest<M> {
         for (x, &variance) in weakest.axis.as_mut().iter_mut().zip(variances) {
             *x = variance.sqrt();
         }
-        weakest.look(factor, variances, 0);
+        weakest.iterate(factor, variances, 0);
         weakest.reference = weakest.variance;
         weakest
     }
@@ -61,13 +62,13 @@ impl<M: Memory> Weakest<M> {
         self.has_grown() && !self.is_informed()
     }
 
-    /// Whether its variance has, and is not bounded.
+    /// Whether its variance has grown by more than the factor, and is not bounded.
     #[inline]
     fn has_grown(&self) -> bool {
         !self.bounded && self.variance > M::Real::from_f64(FACTOR) * self.reference
     }
 
-    /// Whether it is told enough now.
+    /// Whether it gets enough information now.
     #[inline]
     pub fn is_informed(&self) -> bool {
         (self.information[0] + self.information[1]) * self.variance >= self.needed()
@@ -78,8 +79,8 @@ impl<M: Memory> Weakest<M> {
         self.variance / self.reference
     }
 
-    /// The share that w must be told of to count as informed: the further it has wound up, the
-    /// more.
+    /// The share of information from which on w counts as informed: the further it has wound up,
+    /// the larger.
     #[inline]
     fn needed(&self) -> M::Real {
         let (share, recovery) = (M::Real::from_f64(SHARE), M::Real::from_f64(RECOVERY));
@@ -90,7 +91,7 @@ impl<M: Memory> Weakest<M> {
         (share * excess).max(share).min(recovery)
     }
 
-    /// For taking note of samples.
+    /// What the kernel needs of it.
     #[inline]
     pub fn gauge(&mut self) -> Gauge<'_, M::Real> {
         Gauge {
@@ -102,14 +103,15 @@ impl<M: Memory> Weakest<M> {
         }
     }
 
-    /// The end of a block, after so many samples; returns whether w was informed in it.
-    pub fn turn(&mut self, factor: &Factor<M>, variances: &[M::Real], samples: u64) -> bool {
+    /// Finds w for the next block, after so many samples; returns whether it was informed in this
+    /// one.
+    pub fn end_block(&mut self, factor: &Factor<M>, variances: &[M::Real], samples: u64) -> bool {
         let (before, needed) = (self.variance, self.needed());
         let along = self.information[0];
-        let same = self.look(factor, variances, samples);
+        let same = self.iterate(factor, variances, samples);
         let (last, informed) = if same && along > M::Real::ZERO {
-            // Σ (φ̃ w)² of the new w is at least this (Cauchy and Schwarz): a trickle along the old
-            // one may be none along the new one, with its larger variance
+            // by Cauchy and Schwarz, Σ (φ̃ w)² of the new w is at least this; information that was
+            // enough for the old w may be too little for the new one, with its larger variance
             let shared = dot(self.products.as_ref(), self.axis.as_ref());
             let last = (shared * (shared / along)).min(M::Real::CEILING);
             (last, last * self.variance >= self.needed())
@@ -127,21 +129,21 @@ impl<M: Memory> Weakest<M> {
         informed
     }
 
-    /// Looks for w again; says whether it is still about the same. O(n²).
-    fn look(&mut self, factor: &Factor<M>, variances: &[M::Real], samples: u64) -> bool {
+    /// A step of the power iteration; returns whether w is still about the same. O(n²).
+    fn iterate(&mut self, factor: &Factor<M>, variances: &[M::Real], samples: u64) -> bool {
         let (before, direction) = (self.before.as_mut(), self.direction.as_mut());
         for (least, &now) in self.least.as_mut().iter_mut().zip(variances) {
             *least = least.min(now).max(M::Real::FLOOR);
         }
         before.copy_from_slice(self.axis.as_ref());
         let (axis, least) = (self.axis.as_mut(), self.least.as_ref());
-        turn_axis(factor, (axis, least), direction, samples);
+        iterate_axis(factor, (axis, least), direction, samples);
         for ((u, &x), &least) in direction.iter_mut().zip(axis.iter()).zip(least) {
             *u = x / least;
         }
         let overlap = dot(direction, before);
         let variance = factor.leverage(direction);
-        // written so that what is not a number is the largest
+        // written so that a NaN becomes the ceiling
         let fits = variance <= M::Real::CEILING;
         self.variance = if fits { variance } else { M::Real::CEILING };
         direction.copy_from_slice(axis);
@@ -178,13 +180,13 @@ impl<M: Memory> State<M::Real> for Weakest<M> {
 }
 
 /// S w ← S P̃ w / ‖P̃ w‖ = P S⁻¹w / ‖S⁻¹P S⁻¹w‖, in place of `axis`; uses `work`.
-fn turn_axis<M: Memory>(
+fn iterate_axis<M: Memory>(
     factor: &Factor<M>,
     (axis, least): (&mut [M::Real], &[M::Real]),
     work: &mut [M::Real],
     samples: u64,
 ) {
-    // a little of every axis keeps the iteration from missing a direction for ever
+    // with a little of every axis in it the iteration cannot miss a direction for ever
     let nudge = M::Real::EPSILON.sqrt();
     for (i, (u, (&x, &least))) in work.iter_mut().zip(axis.iter().zip(least)).enumerate() {
         let up = (samples >> (i % 32)) & 1 == 0;
@@ -200,7 +202,7 @@ fn turn_axis<M: Memory>(
     }
 }
 
-/// Makes x of length 1, if it has one; says whether it has.
+/// Scales x to length 1; false, and x as it was, if it has no length.
 fn normalize<T: Real>(x: &mut [T], squared_length: impl Fn(&[T]) -> T) -> bool {
     let largest = x.iter().fold(T::ZERO, |largest, x| largest.max(x.abs()));
     let inverse = T::ONE / largest;
