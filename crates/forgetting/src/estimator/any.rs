@@ -5,6 +5,7 @@ use crate::rates::AnyRate;
 use crate::rules::Rule;
 use crate::weighting::AnyWeighting;
 use crate::Dynamic;
+use forgetting_kernels::kernel::form::Form;
 use forgetting_kernels::Kernels;
 
 /// An estimator of any size, rule, rate, weighting and gate, chosen at run time.
@@ -17,6 +18,11 @@ impl<T: Kernels> AnyEstimator<T> {
         &self,
     ) -> &EstimatorState<Rule<Dynamic<T>>, AnyRate<Dynamic<T>>, Dynamic<T>> {
         &self.state
+    }
+
+    /// How every sample changes P, if there is nothing to do but to forget, measure and correct.
+    pub(crate) fn form(&self) -> Option<Form<T>> {
+        self.design.steady.map(|steady| steady.form)
     }
 
     /// [`Estimator::is_sound`] for a state read from bytes; repairs its bound on P's trace if that

@@ -15,11 +15,8 @@ pub use forgetting_kernels::kernel::lanes::streams::{Outputs, Samples, REFUSED};
 pub use kind::check_kind;
 pub use part::{Part, Parts};
 
-use crate::gates::Gate;
 use crate::rates::{AnyRate, Constant, Rate};
-use crate::rules::Forgetting;
 use crate::saved::AnyEstimator;
-use crate::weighting::Weighting;
 use crate::{Dynamic, Error, Estimator, Memory, Prior};
 use alloc::vec::Vec;
 use forgetting_kernels::kernel::form::Form;
@@ -255,15 +252,9 @@ impl<T: Kernels> Fleet<T> {
     }
 }
 
-/// How an estimator forgets at every sample, if that is all that it does to P.
+/// How every sample changes P of an estimator that can be a stream.
 fn form_of<T: Kernels>(estimator: &AnyEstimator<T>) -> Option<Form<T>> {
-    let memory = estimator.prior().memory();
-    let single = (memory.rows(), memory.targets()) == (1, 1)
-        && estimator.health().is_none()
-        && estimator.gate().is_open();
-    // as any estimator: less than the rounding unit forgets every digit all the same
-    let lambda = estimator.rate().constant()?.max(T::EPSILON);
-    estimator.rule().form(lambda).filter(|_| single && estimator.weighting().is_equal())
+    estimator.form().filter(|_| estimator.health().is_none())
 }
 
 /// What distinguishes forms of one rule.
