@@ -11,12 +11,18 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check -q
-# records inside wheels; their own dependencies clash with ours and are not needed to read them
+# Optimized, but quicker to build than a wheel: see Cargo.toml.
+PROFILE := fast
+DEVELOP = . $(BIN)/activate && maturin develop --quiet
+# Two records inside wheels. Their own dependencies clash with ours and are not needed to read them, so
+# they lie in a folder of their own.
 RECORDS := pvanalytics==0.2.2 sweat==0.25.0
+export PYTHONPATH := $(CURDIR)/$(VENV)/records
 
 .PHONY: demo test lint rust python build bench bench-full docs stubs clean
 
-demo: build
+demo: $(VENV)/records
+	$(DEVELOP) --profile $(PROFILE) --extras cli
 	$(BIN)/forgetting demo all --output demo
 
 test: lint rust python
@@ -30,20 +36,25 @@ lint: build
 	$(BIN)/mypy
 
 rust:
-	cargo test --package forgetting --package forgetting-cpu --quiet
+	cargo test --workspace --exclude forgetting-py --profile $(PROFILE) --quiet
 
 python: build
 	$(BIN)/pytest -n auto
 
 build: $(VENV)/ready
-	. $(BIN)/activate && maturin develop --release --quiet
+	$(DEVELOP) --profile $(PROFILE)
 
-$(VENV)/ready: pyproject.toml
-	cargo clippy --version >/dev/null && cargo fmt --version >/dev/null
+$(VENV)/maturin:
 	$(PYTHON) -m venv $(VENV)
 	$(PIP) install --upgrade pip "maturin>=1.7,<2"
-	$(PIP) install --no-deps $(RECORDS)
-	. $(BIN)/activate && maturin develop --release --quiet --extras cli,test
+	touch $@
+
+$(VENV)/records: $(VENV)/maturin
+	$(PIP) install --no-deps --target $@ $(RECORDS)
+
+$(VENV)/ready: pyproject.toml $(VENV)/records
+	cargo clippy --version >/dev/null && cargo fmt --version >/dev/null
+	$(DEVELOP) --profile $(PROFILE) --extras cli,test
 	touch $@
 
 stubs: build
@@ -57,11 +68,13 @@ docs: build
 PEERS = sed -e 's/ *\#.*//' -e '/^$$/d' $(1) | while read peer; do \
 	$(PIP) install --no-warn-conflicts "$$peer" || echo "not installed: $$peer" >&2; done
 
-bench: build
+bench: $(VENV)/ready
+	$(DEVELOP) --release
 	$(call PEERS,benchmarks/requirements.txt)
 	$(BIN)/python -m benchmarks --quick
 
-bench-full: build
+bench-full: $(VENV)/ready
+	$(DEVELOP) --release
 	$(call PEERS,benchmarks/requirements.txt benchmarks/requirements-full.txt)
 	$(BIN)/python -m benchmarks
 
