@@ -1,9 +1,7 @@
 //! NumPy arrays as slices of numbers, without a copy where type and layout allow it.
 
-use crate::errors::invalid;
-use bytemuck::{TransparentWrapper, TransparentWrapperAlloc};
-use forgetting::Kernels;
-use forgetting_cpu::Fused;
+use crate::errors::{invalid, raise};
+use forgetting_runtime::{Array, Elements, NumberType, Numbers, View};
 use numpy::{
     Element, IxDyn, PyArray, PyArrayDescr, PyArrayDyn, PyArrayMethods, PyUntypedArray,
     PyUntypedArrayMethods,
@@ -12,86 +10,157 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyFloat;
 
-/// Anything that NumPy can make an array of.
-pub type Array<'a, 'py> = &'a Bound<'py, PyAny>;
-
-/// What an array of NumPy can be made of.
-pub trait Stored: Sized {
-    /// the same number, as NumPy knows it
-    type Element: Element + Copy;
-    /// The same numbers, for NumPy.
-    fn peel(numbers: Vec<Self>) -> Vec<Self::Element>;
-}
-
-/// A number type to compute with.
-pub trait Number: Kernels + Stored {
-    /// the name of NumPy's type
-    const DTYPE: &'static str;
+/// A NumPy type of the numbers that an estimator takes.
+pub trait Number: Element + Copy {
+    /// The number type of the estimator.
+    const TYPE: NumberType;
     /// NumPy's type, which it makes once.
     fn dtype(py: Python<'_>) -> &Py<PyArrayDescr>;
-    /// NumPy's numbers, to compute with.
-    fn wrap(numbers: &[Self::Element]) -> &[Self];
+    /// The number nearest to `x`.
+    fn from_f64(x: f64) -> Self;
 }
-
-macro_rules! plain {
-    ($($type:ty),*) => {$(
-        impl Stored for $type {
-            type Element = Self;
-            fn peel(numbers: Vec<Self>) -> Vec<Self> {
-                numbers
-            }
-        }
-    )*};
-}
-plain!(f64, f32, i64, u8, bool);
 
 macro_rules! number {
-    ($float:ty, $name:literal) => {
+    ($float:ty, $Type:ident) => {
         impl Number for $float {
-            const DTYPE: &'static str = $name;
+            const TYPE: NumberType = NumberType::$Type;
             #[inline(always)]
             fn dtype(py: Python<'_>) -> &Py<PyArrayDescr> {
                 static DTYPE: PyOnceLock<Py<PyArrayDescr>> = PyOnceLock::new();
                 DTYPE.get_or_init(py, || numpy::dtype::<$float>(py).unbind())
             }
             #[inline(always)]
-            fn wrap(numbers: &[Self]) -> &[Self] {
-                numbers
-            }
-        }
-
-        impl Stored for Fused<$float> {
-            type Element = $float;
-            fn peel(numbers: Vec<Self>) -> Vec<$float> {
-                Self::peel_vec(numbers)
-            }
-        }
-
-        impl Number for Fused<$float> {
-            const DTYPE: &'static str = $name;
-            #[inline(always)]
-            fn dtype(py: Python<'_>) -> &Py<PyArrayDescr> {
-                <$float as Number>::dtype(py)
-            }
-            #[inline(always)]
-            fn wrap(numbers: &[$float]) -> &[Self] {
-                Self::wrap_slice(numbers)
+            fn from_f64(x: f64) -> Self {
+                x as Self
             }
         }
     };
 }
-number!(f64, "float64");
-number!(f32, "float32");
+number!(f64, F64);
+number!(f32, F32);
+
+/// Numbers from Python in the type of an estimator.
+pub enum Input<'a, 'py> {
+    F64(Source<'a, 'py, f64>),
+    F32(Source<'a, 'py, f32>),
+}
+
+/// Where numbers from Python are.
+pub enum Source<'a, 'py, T> {
+    /// in the array that was given
+    Given(&'a Bound<'py, PyArrayDyn<T>>),
+    /// in an array made from it
+    Made(Bound<'py, PyArrayDyn<T>>),
+    /// a single number that was no array
+    Number([T; 1]),
+}
+
+impl<'a, 'py> Input<'a, 'py> {
+    /// The numbers of `values`: of an array of this type in C order without a copy, of a Python
+    /// float without an array.
+    ///
+    /// # Errors
+    /// `InvalidInput` names the parameter when its values are not numbers.
+    #[inline]
+    pub fn read(
+        name: &str,
+        values: &'a Bound<'py, PyAny>,
+        number_type: NumberType,
+    ) -> PyResult<Self> {
+        match number_type {
+            NumberType::F64 => Source::read(name, values).map(Self::F64),
+            NumberType::F32 => Source::read(name, values).map(Self::F32),
+        }
+    }
+
+    /// The same in an array of its own, if `copy` says so.
+    pub fn read_or_copy(
+        name: &str,
+        values: &'a Bound<'py, PyAny>,
+        number_type: NumberType,
+        copy: bool,
+    ) -> PyResult<Self> {
+        match Self::read(name, values, number_type)? {
+            Self::F64(source) if copy => source.copy().map(Self::F64),
+            Self::F32(source) if copy => source.copy().map(Self::F32),
+            input => Ok(input),
+        }
+    }
+
+    /// The numbers.
+    ///
+    /// The interpreter is held by whoever has an `Input`. While the slice lives, no Python code
+    /// may run that could change the array; where code of the user's may, it gets a copy.
+    #[inline]
+    pub fn numbers(&self) -> PyResult<Numbers<'_>> {
+        Ok(match self {
+            Self::F64(source) => Numbers::F64(source.slice()?),
+            Self::F32(source) => Numbers::F32(source.slice()?),
+        })
+    }
+
+    /// Their shape.
+    pub fn shape(&self) -> &[usize] {
+        match self {
+            Self::F64(source) => source.shape(),
+            Self::F32(source) => source.shape(),
+        }
+    }
+
+    /// The numbers in their shape; see [`Input::numbers`].
+    pub fn view(&self, name: &'static str) -> PyResult<View<'_>> {
+        View::new(name, self.numbers()?, self.shape()).map_err(raise)
+    }
+}
+
+impl<'a, 'py, T: Number> Source<'a, 'py, T> {
+    #[inline]
+    fn read(name: &str, values: &'a Bound<'py, PyAny>) -> PyResult<Self> {
+        if let Some(array) = native(values) {
+            return Ok(Self::Given(array));
+        }
+        match values.cast::<PyFloat>() {
+            Ok(number) => Ok(Self::Number([T::from_f64(number.value())])),
+            Err(_) => contiguous(name, values).map(Self::Made),
+        }
+    }
+
+    fn copy(self) -> PyResult<Self> {
+        let array = match &self {
+            Self::Given(array) => array,
+            Self::Made(array) => array,
+            Self::Number(_) => return Ok(self),
+        };
+        let copy = array.call_method0("copy")?;
+        Ok(Self::Made(copy.cast_into::<PyArray<T, IxDyn>>()?))
+    }
+
+    #[inline]
+    fn slice(&self) -> PyResult<&[T]> {
+        let array = match self {
+            Self::Given(array) => array,
+            Self::Made(array) => array,
+            Self::Number(number) => return Ok(number),
+        };
+        // SAFETY: see `Input::numbers`
+        Ok(unsafe { array.as_slice() }?)
+    }
+
+    fn shape(&self) -> &[usize] {
+        match self {
+            Self::Given(array) => array.shape(),
+            Self::Made(array) => array.shape(),
+            Self::Number(_) => &[],
+        }
+    }
+}
 
 /// An array of `T` in C order: the one given, or a converted copy of it.
-///
-/// # Errors
-/// `InvalidInput` names the parameter when its values are not numbers.
-pub fn contiguous<'py, T: Number>(
+fn contiguous<'py, T: Number>(
     name: &str,
     values: &Bound<'py, PyAny>,
-) -> PyResult<Bound<'py, PyArrayDyn<T::Element>>> {
-    if let Ok(array) = values.cast::<PyArray<T::Element, IxDyn>>() {
+) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
+    if let Ok(array) = values.cast::<PyArray<T, IxDyn>>() {
         if is_slice(array) {
             return Ok(array.clone());
         }
@@ -103,16 +172,16 @@ pub fn contiguous<'py, T: Number>(
     })?;
     let array = convert
         .bind(py)
-        .call1((values, T::DTYPE, "CA"))
+        .call1((values, T::TYPE.name(), "CA"))
         .map_err(|error| invalid(format!("{name} must hold numbers ({error})")))?;
-    Ok(array.cast_into::<PyArray<T::Element, IxDyn>>()?)
+    Ok(array.cast_into::<PyArray<T, IxDyn>>()?)
 }
 
 /// `values` if it is an array of `T` as NumPy itself makes them, in C order: a few comparisons tell.
 #[inline]
 fn native<'a, 'py, T: Number>(
     values: &'a Bound<'py, PyAny>,
-) -> Option<&'a Bound<'py, PyArrayDyn<T::Element>>> {
+) -> Option<&'a Bound<'py, PyArrayDyn<T>>> {
     let array = values.cast_exact::<PyUntypedArray>().ok()?;
     if !array.dtype().is(T::dtype(values.py())) {
         return None;
@@ -128,42 +197,35 @@ fn is_slice<T: Element>(array: &Bound<'_, PyArrayDyn<T>>) -> bool {
     array.is_c_contiguous() && array.data().is_aligned()
 }
 
-/// Calls `use_slice` with the numbers of `values`: of an array of `T` in C order without a copy,
-/// of a Python float or int without an array.
-///
-/// # Errors
-/// As for [`contiguous`], and those of `use_slice`.
-#[inline]
-pub fn with_slice<T: Number, R>(
-    name: &str,
-    values: &Bound<'_, PyAny>,
-    use_slice: impl FnOnce(&[T]) -> PyResult<R>,
-) -> PyResult<R> {
-    if let Some(array) = native::<T>(values) {
-        // SAFETY: the interpreter is held and no Python code runs while the slice lives
-        return use_slice(T::wrap(unsafe { array.as_slice() }?));
+/// An array for Python.
+pub fn output(py: Python<'_>, array: Array) -> PyResult<Bound<'_, PyAny>> {
+    let Array { shape, elements } = array;
+    match elements {
+        Elements::F64(elements) => shaped(py, elements, shape),
+        Elements::F32(elements) => shaped(py, elements, shape),
+        Elements::I64(elements) => shaped(py, elements, shape),
+        Elements::U8(elements) => shaped(py, elements, shape),
+        Elements::Bool(elements) => shaped(py, elements, shape),
     }
-    if let Ok(number) = values.cast::<PyFloat>() {
-        return use_slice(&[T::from_f64(number.value())]);
-    }
-    let array = contiguous::<T>(name, values)?;
-    // SAFETY: as above
-    use_slice(T::wrap(unsafe { array.as_slice() }?))
 }
 
-/// The numbers of `values`, copied.
-///
-/// # Errors
-/// As for [`contiguous`].
-pub fn owned<T: Number>(name: &str, values: &Bound<'_, PyAny>) -> PyResult<Vec<T>> {
-    with_slice(name, values, |values: &[T]| Ok(values.to_vec()))
+/// An array for Python, if there is one.
+pub fn optional(py: Python<'_>, array: Option<Array>) -> PyResult<Option<Py<PyAny>>> {
+    array.map(|array| output(py, array).map(Bound::unbind)).transpose()
 }
 
-/// `values` as an array of this shape.
-pub fn shaped<'py, T: Stored>(
-    py: Python<'py>,
-    values: Vec<T>,
-    shape: &[usize],
-) -> PyResult<Bound<'py, PyAny>> {
-    Ok(PyArray::from_vec(py, T::peel(values)).reshape(shape.to_vec())?.into_any())
+/// An array for Python; a float if it has no dimension.
+pub fn output_or_float(py: Python<'_>, array: Array) -> PyResult<Bound<'_, PyAny>> {
+    match (array.shape.as_slice(), array.elements.to_f64().as_slice()) {
+        ([], &[number]) => Ok(PyFloat::new(py, number).into_any()),
+        _ => output(py, array),
+    }
+}
+
+fn shaped<T: Element>(
+    py: Python<'_>,
+    elements: Vec<T>,
+    shape: Vec<usize>,
+) -> PyResult<Bound<'_, PyAny>> {
+    Ok(PyArray::from_vec(py, elements).reshape(shape)?.into_any())
 }

@@ -1,49 +1,13 @@
-//! Functions of the user's: Python callables that the core asks in the middle of a sample.
+//! Functions of the user's: Python callables that are called in the middle of a sample.
 
-use crate::arrays::{shaped, Number};
+use crate::arrays::{output, output_or_float, Input};
 use crate::errors::{invalid, keep_exception};
-use crate::function::Callable;
-use forgetting::function::{EvidenceFunction, MatrixFunction};
-use forgetting::gates::{Answer, GateFunction};
-use forgetting::parameter::{Kind, Parameter, Value};
-use forgetting::rates::Function;
-use forgetting::rules::Forgetting;
-use forgetting::saved::AnyEstimator;
-use forgetting::{Dynamic, Error};
-use forgetting_cpu::Fused;
+use forgetting_runtime::{
+    Answer, Argument, Array, CoreError, Elements, Function, NumberType, Numbers,
+};
 use pyo3::prelude::*;
-use pyo3::types::{PyFloat, PyType};
+use pyo3::types::{PyTuple, PyType};
 use std::any::Any;
-use std::sync::Arc;
-
-/// Whether the estimator runs Python code in the middle of a sample.
-///
-/// Such code may change any array, so that none may be borrowed meanwhile.
-pub fn calls_python<T: Number>(estimator: &AnyEstimator<T>) -> bool {
-    let (rule, rate) = (estimator.rule(), estimator.rate());
-    let has = |parameters: &[Parameter], kind| parameters.iter().any(|p| p.kind == kind);
-    let parameters = rule.about().parameters;
-    has(rate.about().parameters, Kind::Function)
-        || has(estimator.gate().about().parameters, Kind::Function)
-        || has(parameters, Kind::Function)
-        || has(parameters, Kind::Rule) && {
-            let mut found = false;
-            rule.describe(&mut |_, value| found |= is_function(value));
-            found
-        }
-}
-
-fn is_function(value: Value<'_>) -> bool {
-    match value {
-        Value::Function(_) => true,
-        Value::Choice { values, .. } => {
-            let mut found = false;
-            values.each(&mut |_, value| found |= is_function(value));
-            found
-        }
-        _ => false,
-    }
-}
 
 /// What a callable rate or gate is told of a sample, before the sample is used.
 ///
@@ -65,37 +29,52 @@ fn is_function(value: Value<'_>) -> bool {
 /// parameters, rows, targets : int
 ///     Sizes of the estimator.
 #[pyclass(frozen, module = "forgetting")]
-pub struct Evidence {
-    #[pyo3(get)]
-    squared_error: f64,
-    #[pyo3(get)]
-    leverage: f64,
-    #[pyo3(get)]
-    normalized_error: f64,
-    #[pyo3(get)]
-    samples: u64,
-    #[pyo3(get)]
-    parameters: usize,
-    #[pyo3(get)]
-    rows: usize,
-    #[pyo3(get)]
-    targets: usize,
-    errors: Vec<f64>,
-}
+pub struct Evidence(forgetting_runtime::Evidence);
 
 #[pymethods]
 impl Evidence {
     #[getter]
     fn error<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        match (self.errors.as_slice(), self.targets) {
-            ([error], _) => Ok(PyFloat::new(py, *error).into_any()),
-            (errors, 1) => shaped(py, errors.to_vec(), &[self.rows]),
-            (errors, targets) => shaped(py, errors.to_vec(), &[self.rows, targets]),
-        }
+        output_or_float(py, self.0.error.array())
+    }
+
+    #[getter]
+    fn squared_error(&self) -> f64 {
+        self.0.squared_error
+    }
+
+    #[getter]
+    fn leverage(&self) -> f64 {
+        self.0.leverage
+    }
+
+    #[getter]
+    fn normalized_error(&self) -> f64 {
+        self.0.normalized_error
+    }
+
+    #[getter]
+    fn samples(&self) -> u64 {
+        self.0.samples
+    }
+
+    #[getter]
+    fn parameters(&self) -> usize {
+        self.0.parameters
+    }
+
+    #[getter]
+    fn rows(&self) -> usize {
+        self.0.rows
+    }
+
+    #[getter]
+    fn targets(&self) -> usize {
+        self.0.targets
     }
 
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
-        let Self { squared_error, leverage, samples, .. } = self;
+        let forgetting_runtime::Evidence { squared_error, leverage, samples, .. } = self.0;
         let error = self.error(py)?.repr()?;
         Ok(format!(
             "Evidence(error={error}, squared_error={squared_error}, leverage={leverage}, \
@@ -112,22 +91,84 @@ pub fn is_plain(object: &Bound<'_, PyAny>) -> PyResult<bool> {
         && !(object.hasattr("name")? && object.hasattr("parameters")?))
 }
 
-/// The rate that asks `callable` for the forgetting factor of each sample.
-pub fn rate<T: Number>(callable: &Bound<'_, PyAny>) -> Function<Dynamic<T>> {
-    let asked = callable.clone().unbind();
-    Function::new(move |evidence: &forgetting::Evidence<'_, '_, Dynamic<T>>| {
-        ask(&asked, evidence, |answer| answer.extract().map(T::from_f64))
-    })
-    .with_origin(callable.clone().unbind())
+/// A callable as the value of a parameter.
+#[derive(Debug)]
+pub struct Callable {
+    parameter: String,
+    callable: Py<PyAny>,
 }
 
-/// The gate that asks `callable` what to do with each sample.
-pub fn gate<T: Number>(callable: &Bound<'_, PyAny>) -> GateFunction<Dynamic<T>> {
-    let asked = callable.clone().unbind();
-    GateFunction::new(move |evidence: &forgetting::Evidence<'_, '_, Dynamic<T>>| {
-        ask(&asked, evidence, answer)
-    })
-    .with_origin(callable.clone().unbind())
+impl Callable {
+    /// `callable` as the value of `parameter`.
+    pub fn new(parameter: &str, callable: &Bound<'_, PyAny>) -> Self {
+        Self { parameter: parameter.into(), callable: callable.clone().unbind() }
+    }
+
+    /// The callable that `function` is; None if it is none.
+    pub fn object<'py>(py: Python<'py>, function: &dyn Function) -> Bound<'py, PyAny> {
+        let callable = function.as_any().downcast_ref::<Self>();
+        callable.map_or(py.None().into_bound(py), |own| own.callable.bind(py).clone())
+    }
+
+    fn evaluate(
+        &self,
+        py: Python<'_>,
+        arguments: &[Argument<'_>],
+        shape: (usize, usize),
+        put: &mut dyn FnMut(usize, f64),
+    ) -> PyResult<()> {
+        let array = |a: &Argument<'_>| {
+            let elements = (0..a.rows * a.columns).map(a.elements).collect();
+            output(py, Array { shape: vec![a.rows, a.columns], elements: Elements::F64(elements) })
+        };
+        let arguments: PyResult<Vec<_>> = arguments.iter().map(array).collect();
+        let result = self.callable.bind(py).call1(PyTuple::new(py, arguments?)?)?;
+        let name = format!("the result of {}", self.parameter);
+        let result = Input::read(&name, &result, NumberType::F64)?;
+        if result.shape() != [shape.0, shape.1] {
+            let found = result.shape();
+            return Err(invalid(format!("{name} has shape {found:?}, expected {shape:?}")));
+        }
+        if let Numbers::F64(numbers) = result.numbers()? {
+            numbers.iter().enumerate().for_each(|(k, &x)| put(k, x));
+        }
+        Ok(())
+    }
+
+    /// Calls it with the evidence of a sample and reads its answer.
+    fn ask<A>(
+        &self,
+        evidence: &forgetting_runtime::Evidence,
+        read: impl FnOnce(&Bound<'_, PyAny>) -> PyResult<A>,
+    ) -> Result<A, CoreError> {
+        Python::attach(|py| {
+            let answer = self.callable.bind(py).call1((Evidence(evidence.clone()),));
+            answer.and_then(|answer| read(&answer)).map_err(keep_exception)
+        })
+    }
+}
+
+impl Function for Callable {
+    fn matrix(
+        &self,
+        arguments: &[Argument<'_>],
+        shape: (usize, usize),
+        put: &mut dyn FnMut(usize, f64),
+    ) -> Result<(), CoreError> {
+        Python::attach(|py| self.evaluate(py, arguments, shape, put)).map_err(keep_exception)
+    }
+
+    fn forgetting_factor(&self, evidence: &forgetting_runtime::Evidence) -> Result<f64, CoreError> {
+        self.ask(evidence, |answer| answer.extract())
+    }
+
+    fn gate(&self, evidence: &forgetting_runtime::Evidence) -> Result<Answer, CoreError> {
+        self.ask(evidence, answer)
+    }
+
+    fn as_any(&self) -> &dyn Any {
+        self
+    }
 }
 
 /// A gate's answer in Python's words.
@@ -135,44 +176,5 @@ fn answer(answer: &Bound<'_, PyAny>) -> PyResult<Answer> {
     let word = answer.extract::<String>().ok();
     word.and_then(|word| Answer::of_word(&word)).ok_or_else(|| {
         invalid(format!("gate answered {answer:?}, allowed: \"update\", \"freeze\", \"hold\""))
-    })
-}
-
-/// The callable that a function of the core was made from; None if it was not.
-pub fn python<'py>(py: Python<'py>, function: &(dyn Any + Send + Sync)) -> Bound<'py, PyAny> {
-    let matrix = || function.downcast_ref::<Arc<dyn MatrixFunction>>()?.as_any().downcast_ref();
-    let asked = origin::<f64>(function).or_else(|| origin::<f32>(function));
-    let asked = asked.or_else(|| origin::<Fused<f64>>(function));
-    let asked = asked.or_else(|| origin::<Fused<f32>>(function));
-    let rule = matrix().map(|callable: &Callable| callable.object(py));
-    asked.map(|callable| callable.bind(py).clone()).or(rule).unwrap_or(py.None().into_bound(py))
-}
-
-/// The callable of a rate or a gate in this number type.
-fn origin<T: Number>(function: &(dyn Any + Send + Sync)) -> Option<&Py<PyAny>> {
-    fn of<T: Number, A: 'static>(function: &(dyn Any + Send + Sync)) -> Option<&Py<PyAny>> {
-        function.downcast_ref::<EvidenceFunction<Dynamic<T>, A>>()?.origin().downcast_ref()
-    }
-    of::<T, T>(function).or_else(|| of::<T, Answer>(function))
-}
-
-fn ask<T: Number, A>(
-    callable: &Py<PyAny>,
-    evidence: &forgetting::Evidence<'_, '_, Dynamic<T>>,
-    read: impl FnOnce(&Bound<'_, PyAny>) -> PyResult<A>,
-) -> Result<A, Error> {
-    let seen = Evidence {
-        squared_error: evidence.squared_error.to_f64(),
-        leverage: evidence.leverage.to_f64(),
-        normalized_error: evidence.normalized_error.to_f64(),
-        samples: evidence.samples,
-        parameters: evidence.factor.parameters(),
-        rows: evidence.rows,
-        targets: evidence.targets,
-        errors: evidence.errors.iter().map(|error| error.to_f64()).collect(),
-    };
-    Python::attach(|py| {
-        let answer = callable.bind(py).call1((seen,));
-        answer.and_then(|answer| read(&answer)).map_err(keep_exception)
     })
 }

@@ -1,198 +1,115 @@
 //! A rule, a rate, a weighting or a gate as Python says it: a name, or an object with the attributes
 //! `name` and `parameters`.
 
-use crate::arrays::with_slice;
-use crate::callable;
+use crate::arrays::Input;
+use crate::callable::{is_plain, Callable};
 use crate::errors::{invalid, raise};
-use crate::function::Callable;
-use forgetting::function::MatrixFunction;
-use forgetting::parameter::{Parameter, Value, Values};
-use forgetting::rules::RULES;
-use forgetting::Error;
+use forgetting_runtime::{Choice, ForgettingFactor, Function, NumberType, Numbers, Value};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyFloat, PyInt, PyString};
+use pyo3::types::{PyDict, PyFloat, PyInt, PyList, PyString};
 use std::sync::Arc;
 
-/// A parameter's value, taken from Python.
-pub enum Given {
-    Real(f64),
-    Word(String),
-    Matrix { rows: usize, columns: usize, elements: Box<dyn Fn(usize) -> f64 + Send + Sync> },
-    Choice(Choice),
-    Function(Arc<dyn MatrixFunction>),
+/// From a name or from an object with `name` and `parameters`; nothing if there is none.
+///
+/// # Errors
+/// `InvalidInput` names `what` when it is neither.
+pub fn read(what: &str, object: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Choice>> {
+    object.map(|object| read_choice(what, object)).transpose()
 }
 
-/// A name and its parameters.
-pub struct Choice {
-    /// the registry name
-    pub name: String,
-    parameters: Vec<(String, Given)>,
-}
-
-impl Choice {
-    /// By name alone.
-    pub fn named(name: &str) -> Self {
-        Self { name: name.into(), parameters: Vec::new() }
-    }
-
-    /// By name, with this one parameter.
-    pub fn with_number(name: &str, parameter: &str, value: f64) -> Self {
-        Self { name: name.into(), parameters: vec![(parameter.into(), Given::Real(value))] }
-    }
-
-    /// From a name or from an object with `name` and `parameters`.
-    ///
-    /// # Errors
-    /// `InvalidInput` names `what` when it is neither.
-    pub fn read(what: &str, object: &Bound<'_, PyAny>) -> PyResult<Self> {
-        if let Ok(name) = object.cast::<PyString>() {
-            return Ok(Self { name: name.to_string(), parameters: Vec::new() });
+/// The gate; a callable is one, too.
+///
+/// # Errors
+/// As for [`read`].
+pub fn read_gate(object: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Choice>> {
+    match object {
+        Some(object) if is_plain(object)? => {
+            Ok(Some(Choice::gate_function(Arc::new(Callable::new("gate", object)))))
         }
-        let attribute = |name| {
-            object.getattr(name).map_err(|_| {
-                invalid(format!("{what} = {object:?}, allowed: a name or a {what} object"))
-            })
-        };
-        let name = attribute("name")?.extract()?;
-        let parameters = attribute("parameters")?.cast_into::<PyDict>()?;
-        let mut given = Vec::new();
-        for (name, value) in parameters {
-            let name: String = name.extract()?;
-            if !value.is_none() {
-                let value = read_value(&name, &value)?;
-                given.push((name, value));
-            }
-        }
-        Ok(Self { name, parameters: given })
-    }
-
-    /// The callable given for the parameter `name`, if one was.
-    pub fn callable<'py>(&self, py: Python<'py>, name: &str) -> Option<Bound<'py, PyAny>> {
-        self.parameters.iter().find(|(known, _)| known == name).and_then(|(_, value)| match value {
-            Given::Function(function) => Some(callable::python(py, function)),
-            _ => None,
-        })
-    }
-
-    /// Refuses a parameter that is not among `known`, then makes what is chosen.
-    pub fn make<T>(
-        &self,
-        what: &str,
-        known: Option<&[Parameter]>,
-        make: impl FnOnce(&str, &dyn Values) -> Result<T, Error>,
-    ) -> PyResult<T> {
-        self.check_names(what, known)?;
-        make(&self.name, self).map_err(|error| match error {
-            Error::Unknown { .. } => invalid(format!("{what} = {:?} is not known", self.name)),
-            error => raise(error),
-        })
-    }
-
-    /// Refuses a parameter that is not among `known`, here and in a rule that is a parameter.
-    fn check_names(&self, what: &str, known: Option<&[Parameter]>) -> PyResult<()> {
-        for (name, value) in &self.parameters {
-            if let Some(known) = known.filter(|known| !known.iter().any(|k| k.name == name)) {
-                let names: Vec<_> = known.iter().map(|k| k.name).collect();
-                return Err(invalid(format!(
-                    "{what} {} has no parameter {name}; it has: {}",
-                    self.name,
-                    if names.is_empty() { "none".into() } else { names.join(", ") }
-                )));
-            }
-            if let Given::Choice(inner) = value {
-                let about = RULES.iter().find(|about| about.name == inner.name);
-                inner.check_names(name, about.map(|about| about.parameters))?;
-            }
-        }
-        Ok(())
+        object => read("gate", object),
     }
 }
 
-impl Values for Choice {
-    fn get(&self, name: &str) -> Option<Value<'_>> {
-        self.parameters.iter().find(|(known, _)| known == name).map(|(_, value)| match value {
-            Given::Real(x) => Value::Real(*x),
-            Given::Word(word) => Value::Word(word),
-            Given::Matrix { rows, columns, elements } => {
-                Value::Matrix { rows: *rows, columns: *columns, elements }
-            }
-            Given::Function(function) => Value::Function(function),
-            Given::Choice(inner) => Value::Choice { name: &inner.name, values: inner },
-        })
-    }
+/// How much a rule object says to forget.
+///
+/// # Errors
+/// As for [`read`].
+pub fn read_forgetting_factor(rule: Option<&Bound<'_, PyAny>>) -> PyResult<ForgettingFactor> {
+    let factor = rule.and_then(|rule| rule.getattr_opt("forgetting_factor").ok().flatten());
+    Ok(match factor {
+        None => ForgettingFactor::Default,
+        Some(factor) if factor.is_none() => ForgettingFactor::None,
+        Some(factor) => match factor.extract() {
+            Ok(number) => ForgettingFactor::constant(number),
+            Err(_) => ForgettingFactor::Rate(read_choice("forgetting_factor", &factor)?),
+        },
+    })
 }
 
-fn read_value(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Given> {
+fn read_choice(what: &str, object: &Bound<'_, PyAny>) -> PyResult<Choice> {
+    if let Ok(name) = object.cast::<PyString>() {
+        return Ok(Choice::named(name.to_string()));
+    }
+    let attribute = |name| {
+        object.getattr(name).map_err(|_| {
+            invalid(format!("{what} = {object:?}, allowed: a name or a {what} object"))
+        })
+    };
+    let mut choice = Choice::named(attribute("name")?.extract::<String>()?);
+    for (name, value) in attribute("parameters")?.cast_into::<PyDict>()? {
+        let name: String = name.extract()?;
+        if !value.is_none() {
+            let value = read_value(&name, &value)?;
+            choice.parameters.push((name, value));
+        }
+    }
+    Ok(choice)
+}
+
+fn read_value(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Value> {
     if let Ok(word) = value.cast::<PyString>() {
-        return Ok(Given::Word(word.to_string()));
+        return Ok(Value::Word(word.to_string()));
     }
     if value.is_instance_of::<PyFloat>() || value.is_instance_of::<PyInt>() {
-        return value.extract().map(Given::Real);
+        return value.extract().map(Value::Number);
     }
     if value.hasattr("name")? && value.hasattr("parameters")? {
-        return Choice::read(name, value).map(Given::Choice);
+        return read_choice(name, value).map(Value::Choice);
     }
     if value.is_callable() {
-        return Ok(Given::Function(Arc::new(Callable::new(name, value))));
+        let function: Arc<dyn Function> = Arc::new(Callable::new(name, value));
+        return Ok(Value::Function(function));
     }
-    let shape = shape_of(name, value)?;
-    let elements = with_slice::<f64, _>(name, value, |elements| Ok(elements.to_vec()))?;
-    let at = move |elements: Vec<f64>| {
-        Box::new(move |k: usize| elements.get(k).copied().unwrap_or(f64::NAN)) as Box<_>
+    let numbers = Input::read(name, value, NumberType::F64)?;
+    let elements = match numbers.numbers()? {
+        Numbers::F64(elements) => elements.to_vec(),
+        Numbers::F32(elements) => elements.iter().map(|&x| f64::from(x)).collect(),
     };
-    match shape.as_slice() {
-        [] => Ok(Given::Real(elements[0])),
-        [columns] => Ok(Given::Matrix { rows: 1, columns: *columns, elements: at(elements) }),
-        [rows, columns] => {
-            // one row that is a matrix, not a list, is 1 x 1
-            Ok(Given::Matrix { rows: *rows, columns: *columns, elements: at(elements) })
-        }
-        _ => Err(invalid(format!("{name} has {} dimensions, allowed: 0, 1 or 2", shape.len()))),
-    }
-}
-
-/// The shape of anything that NumPy can make an array of.
-pub fn shape_of(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<usize>> {
-    let shape = value.py().import("numpy")?.call_method1("shape", (value,));
-    shape
-        .and_then(|shape| shape.extract())
-        .map_err(|error| invalid(format!("{name} must hold numbers ({error})")))
-}
-
-/// A parameter's value for Python.
-pub fn write_value<'py>(py: Python<'py>, value: Value<'_>) -> PyResult<Bound<'py, PyAny>> {
-    match value {
-        Value::Real(x) => Ok(PyFloat::new(py, x).into_any()),
-        Value::Word(word) => Ok(PyString::new(py, word).into_any()),
-        Value::Matrix { rows, columns, elements } => {
-            let elements: Vec<f64> = (0..rows * columns).map(elements).collect();
-            let shape: &[usize] = if rows == 1 { &[columns] } else { &[rows, columns] };
-            // a list compares and prints as it was given
-            crate::arrays::shaped(py, elements, shape)?.call_method0("tolist")
-        }
-        Value::Function(function) => Ok(callable::python(py, function)),
-        Value::Choice { name, values } => {
-            write_choice(py, name, |each| values.each(each)).map(Bound::into_any)
-        }
-    }
+    Value::array(name, elements, numbers.shape()).map_err(raise)
 }
 
 /// A choice for Python: a dictionary of its name and its parameters.
-pub fn write_choice<'py>(
-    py: Python<'py>,
-    name: &str,
-    each: impl FnOnce(&mut dyn FnMut(&str, Value<'_>)),
-) -> PyResult<Bound<'py, PyDict>> {
-    let (choice, parameters) = (PyDict::new(py), PyDict::new(py));
-    let mut outcome = Ok(());
-    each(&mut |name, value| {
-        let written = write_value(py, value).and_then(|value| parameters.set_item(name, value));
-        if written.is_err() {
-            outcome = written;
+pub fn write<'py>(py: Python<'py>, choice: &Choice) -> PyResult<Bound<'py, PyDict>> {
+    let (written, parameters) = (PyDict::new(py), PyDict::new(py));
+    for (name, value) in &choice.parameters {
+        parameters.set_item(name, write_value(py, value)?)?;
+    }
+    written.set_item("name", &choice.name)?;
+    written.set_item("parameters", parameters)?;
+    Ok(written)
+}
+
+/// A parameter's value for Python; numbers as lists, which compare and print as they were given.
+pub fn write_value<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
+    match value {
+        Value::Number(x) => Ok(PyFloat::new(py, *x).into_any()),
+        Value::Word(word) => Ok(PyString::new(py, word).into_any()),
+        Value::Matrix { rows: 1, elements, .. } => Ok(PyList::new(py, elements)?.into_any()),
+        Value::Matrix { columns, elements, .. } => {
+            let rows = elements.chunks(*columns).map(|row| PyList::new(py, row));
+            Ok(PyList::new(py, rows.collect::<PyResult<Vec<_>>>()?)?.into_any())
         }
-    });
-    outcome?;
-    choice.set_item("name", name)?;
-    choice.set_item("parameters", parameters)?;
-    Ok(choice)
+        Value::Function(function) => Ok(Callable::object(py, &**function)),
+        Value::Choice(choice) => write(py, choice).map(Bound::into_any),
+    }
 }

@@ -1,7 +1,7 @@
-//! Errors of the crate as Python exceptions.
+//! Errors as Python exceptions.
 
-use forgetting::Error;
-use pyo3::exceptions::{PyArithmeticError, PyMemoryError, PyValueError};
+use forgetting_runtime::{CoreError, Error, Kind};
+use pyo3::exceptions::{PyArithmeticError, PyIndexError, PyMemoryError, PyValueError};
 use pyo3::{create_exception, PyErr};
 use std::cell::RefCell;
 
@@ -21,32 +21,26 @@ create_exception!(
 );
 
 thread_local! {
-    /// The exception of a callable, while the crate hands its [`Error::Function`] back.
+    /// The exception of a callable, while its [`CoreError::Function`] is on its way back.
     static EXCEPTION: RefCell<Option<PyErr>> = const { RefCell::new(None) };
 }
 
-/// The error that stands for an exception within the crate.
-pub fn keep_exception(exception: PyErr) -> Error {
+/// The error that stands for an exception on its way through the estimator.
+pub fn keep_exception(exception: PyErr) -> CoreError {
     EXCEPTION.set(Some(exception));
-    Error::Function { parameter: "a function of yours" }
+    CoreError::Function { parameter: "a function of yours" }
 }
 
 /// The exception for `error`.
+#[cold]
 pub fn raise(error: Error) -> PyErr {
-    raise_at(error, None)
-}
-
-/// The exception for `error` at this sample of a record.
-pub fn raise_at(error: Error, sample: Option<usize>) -> PyErr {
-    let text = match sample {
-        Some(sample) => format!("sample {sample}: {error}"),
-        None => error.to_string(),
-    };
-    match error {
-        Error::Function { .. } => EXCEPTION.take().unwrap_or_else(|| InvalidInput::new_err(text)),
-        Error::Range { .. } => NumericalRange::new_err(text),
-        Error::Memory => PyMemoryError::new_err(text),
-        _ => InvalidInput::new_err(text),
+    let text = error.to_string();
+    match error.kind() {
+        Kind::Function => EXCEPTION.take().unwrap_or_else(|| InvalidInput::new_err(text)),
+        Kind::Range => NumericalRange::new_err(text),
+        Kind::Memory => PyMemoryError::new_err(text),
+        Kind::Index => PyIndexError::new_err(text),
+        Kind::Invalid => InvalidInput::new_err(text),
     }
 }
 

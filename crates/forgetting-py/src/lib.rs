@@ -1,19 +1,15 @@
-//! The Python module `forgetting._core`: it converts between Python and the crate `forgetting`,
-//! and does nothing else.
+//! The Python module `forgetting._core`: it converts between Python and the crate
+//! `forgetting-runtime`, and does nothing else.
 
 mod arrays;
 mod callable;
 mod choice;
-mod configure;
 mod errors;
 mod fleet;
-mod function;
-mod outputs;
-mod record;
 mod registry;
-mod results;
 mod rls;
-mod sample;
+mod run;
+mod settings;
 mod update;
 mod window;
 
@@ -27,7 +23,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<update::Update>()?;
     module.add_class::<callable::Evidence>()?;
     module.add_class::<window::InformationWindow>()?;
-    module.add_class::<outputs::Run>()?;
+    module.add_class::<run::Run>()?;
     module.add("InvalidInput", module.py().get_type::<errors::InvalidInput>())?;
     module.add("NumericalRange", module.py().get_type::<errors::NumericalRange>())?;
     module.add("SKIPPED", registry::skip_codes(module.py())?)?;

@@ -1,13 +1,13 @@
 //! The registries as Python dictionaries.
 
 use crate::choice::write_value;
-use forgetting::fleet::REFUSED;
 use forgetting::gates::{Answer, GATES};
 use forgetting::parameter::{Kind, Parameter};
 use forgetting::rates::RATES;
 use forgetting::rules::{Claim, RULES};
 use forgetting::weighting::WEIGHTINGS;
 use forgetting::Skip;
+use forgetting_runtime::{FleetUpdate, Value};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
@@ -35,7 +35,8 @@ fn parameter<'py>(py: Python<'py>, parameter: &Parameter) -> PyResult<Bound<'py,
     entry.set_item("kind", kind)?;
     entry.set_item("range", range)?;
     entry.set_item("required", parameter.default.is_none() && !parameter.optional)?;
-    let default = parameter.default.map(|value| write_value(py, value)).transpose()?;
+    let default = Value::default_of(parameter);
+    let default = default.map(|value| write_value(py, &value)).transpose()?;
     entry.set_item("default", default)?;
     Ok(entry)
 }
@@ -113,6 +114,6 @@ pub fn skip_codes(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     for reason in Skip::ALL {
         codes.set_item(reason.code(), reason.word())?;
     }
-    codes.set_item(REFUSED, "refused")?;
+    codes.set_item(FleetUpdate::REFUSED, "refused")?;
     Ok(codes)
 }

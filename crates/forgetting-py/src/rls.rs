@@ -1,53 +1,14 @@
 //! The class `RLS`.
 
-use crate::arrays::Number;
-use crate::configure::{make, read_sizes};
-use crate::errors::{invalid, raise};
-use crate::outputs::{Run, DEFAULT_OUTPUTS};
+use crate::arrays::{output, output_or_float, Input};
+use crate::choice::{read, read_forgetting_factor, read_gate};
+use crate::errors::raise;
+use crate::run::Run;
+use crate::settings::{names, read_optional, view, write_description, write_health};
 use crate::update::Update;
-use crate::{record, results, sample};
-use forgetting::saved::{number_type, AnyEstimator};
-use forgetting::{Memory, Real};
-use forgetting_cpu::{level, Fused, Level};
+use forgetting_runtime::{size, Estimator, Missing, NumberType, Settings};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyType};
-
-/// An estimator in one of the number types.
-#[derive(Clone)]
-pub enum Inner {
-    Double(Box<AnyEstimator<f64>>),
-    Single(Box<AnyEstimator<f32>>),
-    // on a machine with fused multiply-add
-    FusedDouble(Box<AnyEstimator<Fused<f64>>>),
-    FusedSingle(Box<AnyEstimator<Fused<f32>>>),
-}
-
-/// The same expression for a new estimator of either precision, in the arithmetic that is fast on
-/// this machine.
-macro_rules! new {
-    ($double:expr, $make:expr) => {
-        match ($double, level() >= Level::Fused) {
-            (true, false) => Inner::Double(Box::new($make)),
-            (false, false) => Inner::Single(Box::new($make)),
-            (true, true) => Inner::FusedDouble(Box::new($make)),
-            (false, true) => Inner::FusedSingle(Box::new($make)),
-        }
-    };
-}
-
-/// The same expression for any number type.
-macro_rules! either {
-    ($inner:expr, $estimator:ident => $expression:expr) => {
-        match $inner {
-            Inner::Double($estimator) => $expression,
-            Inner::Single($estimator) => $expression,
-            Inner::FusedDouble($estimator) => $expression,
-            Inner::FusedSingle($estimator) => $expression,
-        }
-    };
-}
-
-pub(crate) use {either, new};
 
 /// Recursive least squares with generalized forgetting.
 ///
@@ -93,7 +54,7 @@ pub(crate) use {either, new};
 /// array([3. , 0.5])
 #[pyclass(name = "RLS", module = "forgetting")]
 pub struct Rls {
-    pub(crate) inner: Inner,
+    pub(crate) estimator: Estimator,
 }
 
 #[pymethods]
@@ -114,82 +75,82 @@ impl Rls {
         dtype: &str,
         monitor: bool,
     ) -> PyResult<Self> {
-        let sizes = [("parameters", parameters), ("rows", rows), ("targets", targets)];
-        let sizes = read_sizes(sizes)?;
-        let choices = [rule, weighting, gate];
-        let initial = (initial_covariance, initial_theta);
-        let mut inner = match dtype {
-            "float64" | "float32" => {
-                new!(dtype == f64::DTYPE, make(sizes, choices, initial)?)
-            }
-            _ => {
-                return Err(invalid(format!(
-                    "dtype = {dtype:?}, allowed: \"float64\", \"float32\""
-                )))
-            }
+        let parameters = size("parameters", parameters).map_err(raise)?;
+        let rows = size("rows", rows).map_err(raise)?;
+        let targets = size("targets", targets).map_err(raise)?;
+        let number_type = NumberType::named(dtype).map_err(raise)?;
+        let covariance = read_optional("initial_covariance", initial_covariance, number_type)?;
+        let theta = read_optional("initial_theta", initial_theta, number_type)?;
+        let settings = Settings {
+            parameters,
+            rows,
+            targets,
+            number_type,
+            rule: read("rule", rule)?,
+            forgetting_factor: read_forgetting_factor(rule)?,
+            weighting: read("weighting", weighting)?,
+            gate: read_gate(gate)?,
+            initial_covariance: view("initial_covariance", &covariance)?,
+            initial_theta: view("initial_theta", &theta)?,
+            monitor,
         };
-        if monitor {
-            either!(&mut inner, e => e.watch());
-        }
-        Ok(Self { inner })
+        Ok(Self { estimator: Estimator::new(&settings).map_err(raise)? })
     }
 
     /// Number n of parameters of each target.
     #[getter]
     fn parameters(&self) -> usize {
-        either!(&self.inner, e => e.prior().memory().parameters())
+        self.estimator.parameters()
     }
 
     /// Measurements a sample that share one theta.
     #[getter]
     fn rows(&self) -> usize {
-        either!(&self.inner, e => e.prior().memory().rows())
+        self.estimator.rows()
     }
 
     /// Parameter vectors that share phi and one covariance.
     #[getter]
     fn targets(&self) -> usize {
-        either!(&self.inner, e => e.prior().memory().targets())
+        self.estimator.targets()
     }
 
     /// Name of the number type.
     #[getter]
     fn dtype(&self) -> &'static str {
-        match self.inner {
-            Inner::Double(_) | Inner::FusedDouble(_) => f64::DTYPE,
-            Inner::Single(_) | Inner::FusedSingle(_) => f32::DTYPE,
-        }
+        self.estimator.number_type().name()
     }
 
     /// Samples used since the start; skipped ones do not count.
     #[getter]
     fn samples(&self) -> u64 {
-        either!(&self.inner, e => e.samples())
+        self.estimator.samples()
     }
 
     /// The estimate, (n,) or (n, targets).
     #[getter]
     fn theta<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        either!(&self.inner, e => results::theta(py, e))
+        output(py, self.estimator.theta())
     }
 
     /// The covariance P, (n, n), in units of 1/phi**2: times the noise variance, it is that of
     /// the estimate.
     #[getter]
     fn covariance<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        either!(&self.inner, e => results::covariance(py, e))
+        output(py, self.estimator.covariance())
     }
 
     /// The factor of the covariance: U (n, n) unit upper triangular and D (n,) positive, with
     /// P = U @ diag(D) @ U.T.
     fn factor<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
-        either!(&self.inner, e => results::factor(py, e))
+        let (unit, diagonal) = self.estimator.factor();
+        Ok((output(py, unit)?, output(py, diagonal)?))
     }
 
     /// The largest and the smallest element of D, for `health`: O(n).
     #[pyo3(name = "_extremes")]
     fn extremes(&self) -> (f64, f64) {
-        either!(&self.inner, e => (e.factor().largest().to_f64(), e.factor().smallest().to_f64()))
+        self.estimator.extremes()
     }
 
     /// How far the estimate can be trusted now.
@@ -209,12 +170,12 @@ impl Rls {
 
     /// What the monitor has seen, as a dictionary; None without one.
     fn watched<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
-        either!(&self.inner, e => results::watched(py, e))
+        self.estimator.health().map(|health| write_health(py, health)).transpose()
     }
 
     /// The rule, rate, weighting and gate by name, each with its parameters.
     fn describe<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        either!(&self.inner, e => results::describe(py, e))
+        write_description(py, &self.estimator.describe())
     }
 
     /// The forgetting rule, as an object that would make the same one.
@@ -252,7 +213,8 @@ impl Rls {
         py: Python<'py>,
         phi: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        either!(&self.inner, e => results::predict(py, e, phi))
+        let phi = Input::read("phi", phi, self.estimator.number_type())?;
+        output_or_float(py, self.estimator.predict(phi.view("phi")?).map_err(raise)?)
     }
 
     /// Take one sample.
@@ -281,7 +243,12 @@ impl Rls {
         y: &Bound<'_, PyAny>,
         gamma: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Update> {
-        either!(&mut self.inner, e => sample::update(e, phi, y, gamma))
+        let (number_type, copy) = (self.estimator.number_type(), self.estimator.calls_function());
+        let read = |name, values| Input::read_or_copy(name, values, number_type, copy);
+        let (phi, y) = (read("phi", phi)?, read("y", y)?);
+        let gamma = gamma.map(|gamma| read("gamma", gamma)).transpose()?;
+        let gamma = gamma.as_ref().map(Input::numbers).transpose()?;
+        self.estimator.update(phi.numbers()?, y.numbers()?, gamma).map(Update).map_err(raise)
     }
 
     /// Take a whole record, without Python in the loop and without holding the interpreter.
@@ -319,33 +286,31 @@ impl Rls {
         outputs: Option<Vec<String>>,
         missing: &str,
     ) -> PyResult<Run> {
-        let skip = match missing {
-            "error" => false,
-            "skip" => true,
-            _ => {
-                return Err(invalid(format!("missing = {missing:?}, allowed: \"error\", \"skip\"")))
-            }
-        };
-        let outputs = outputs.unwrap_or_else(|| DEFAULT_OUTPUTS.map(String::from).to_vec());
-        either!(&mut self.inner, e => record::run(py, e, (phi, y, gamma), &outputs, skip))
+        let missing = Missing::named(missing).map_err(raise)?;
+        let (number_type, copy) = (self.estimator.number_type(), self.estimator.calls_function());
+        let read = |name, values| Input::read_or_copy(name, values, number_type, copy);
+        let (phi, y) = (read("phi", phi)?, read("y", y)?);
+        let gamma = gamma.map(|gamma| read("gamma", gamma)).transpose()?;
+        let record = (phi.view("phi")?, y.view("y")?, view("gamma", &gamma)?);
+        let outputs = names(&outputs);
+        let run = py.detach(|| self.estimator.run(record, missing, outputs.as_deref()));
+        Run::new(py, run.map_err(raise)?)
     }
 
     /// Back to the initial estimate and covariance, as if no sample had been seen.
     fn reset(&mut self) {
-        either!(&mut self.inner, e => e.reset());
+        self.estimator.reset();
     }
 
     /// The estimator, configuration and state, as bytes: portable, versioned and checked.
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let bytes = either!(&self.inner, e => e.to_bytes()).map_err(raise)?;
-        Ok(PyBytes::new(py, &bytes))
+        Ok(PyBytes::new(py, &self.estimator.to_bytes().map_err(raise)?))
     }
 
     /// The estimator that `to_bytes` saved, bit for bit.
     #[classmethod]
     fn from_bytes(_: &Bound<'_, PyType>, state: &[u8]) -> PyResult<Self> {
-        let double = number_type(state).map_err(raise)? == 8;
-        Ok(Self { inner: new!(double, AnyEstimator::from_bytes(state).map_err(raise)?) })
+        Ok(Self { estimator: Estimator::from_bytes(state).map_err(raise)? })
     }
 
     fn __reduce__<'py>(
@@ -356,7 +321,7 @@ impl Rls {
     }
 
     fn __copy__(&self) -> Self {
-        Self { inner: self.inner.clone() }
+        Self { estimator: self.estimator.clone() }
     }
 
     fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> Self {

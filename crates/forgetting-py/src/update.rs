@@ -1,41 +1,7 @@
 //! What one sample told, for Python.
 
-use crate::arrays::shaped;
-use crate::errors::raise;
-use forgetting::gates::Answer;
-use forgetting::{Real, Skip};
+use crate::arrays::output_or_float;
 use pyo3::prelude::*;
-use pyo3::types::PyFloat;
-
-/// One number a row and target, and the shape to show them in.
-enum Shaped {
-    Scalar(f64),
-    Array { elements: Vec<f64>, rows: usize, targets: usize },
-}
-
-impl Shaped {
-    #[inline]
-    fn new<T: Real>(elements: &[T], rows: usize, targets: usize) -> Self {
-        match elements {
-            [element] => Self::Scalar(element.to_f64()),
-            elements => Self::Array {
-                elements: elements.iter().map(|x| x.to_f64()).collect(),
-                rows,
-                targets,
-            },
-        }
-    }
-
-    fn show<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        match self {
-            Self::Scalar(element) => Ok(PyFloat::new(py, *element).into_any()),
-            Self::Array { elements, rows, targets: 1 } => shaped(py, elements.clone(), &[*rows]),
-            Self::Array { elements, rows, targets } => {
-                shaped(py, elements.clone(), &[*rows, *targets])
-            }
-        }
-    }
-}
 
 /// What one sample told: returned by `RLS.update`.
 ///
@@ -60,79 +26,56 @@ impl Shaped {
 /// windup : bool
 ///     Whether the covariance has grown to more than ten times its first value.
 #[pyclass(frozen, module = "forgetting")]
-pub struct Update {
-    error: Shaped,
-    whitened: Shaped,
-    #[pyo3(get)]
-    leverage: f64,
-    #[pyo3(get)]
-    forgetting_factor: f64,
-    #[pyo3(get)]
-    rank: usize,
-    skipped: Option<Skip>,
-    gate: Answer,
-    #[pyo3(get)]
-    windup: bool,
-}
-
-impl Update {
-    /// From the crate's update, for a problem of these sizes; several rows must be whitened.
-    #[inline]
-    pub fn new<T: Real>(
-        update: &forgetting::Update<'_, T>,
-        rows: usize,
-        targets: usize,
-    ) -> PyResult<Self> {
-        let whitened = if update.error.len() == 1 {
-            let mut whitened = [T::ZERO];
-            update.whiten(&mut whitened).map_err(raise)?;
-            Shaped::new(&whitened, rows, targets)
-        } else {
-            let mut whitened = vec![T::ZERO; update.error.len()];
-            update.whiten(&mut whitened).map_err(raise)?;
-            Shaped::new(&whitened, rows, targets)
-        };
-        Ok(Self {
-            error: Shaped::new(update.error, rows, targets),
-            whitened,
-            leverage: update.leverage.to_f64(),
-            forgetting_factor: update.forgetting_factor.to_f64(),
-            rank: update.rank,
-            skipped: update.skipped,
-            gate: update.gate,
-            windup: update.windup,
-        })
-    }
-}
+pub struct Update(pub forgetting_runtime::Update);
 
 #[pymethods]
 impl Update {
     #[getter]
     fn error<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        self.error.show(py)
+        output_or_float(py, self.0.error.array())
     }
 
     #[getter]
     fn whitened_innovation<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        self.whitened.show(py)
+        output_or_float(py, self.0.whitened_innovation.array())
+    }
+
+    #[getter]
+    fn leverage(&self) -> f64 {
+        self.0.leverage
+    }
+
+    #[getter]
+    fn forgetting_factor(&self) -> f64 {
+        self.0.forgetting_factor
+    }
+
+    #[getter]
+    fn rank(&self) -> usize {
+        self.0.rank
+    }
+
+    #[getter]
+    fn windup(&self) -> bool {
+        self.0.windup
     }
 
     #[getter]
     fn gate(&self) -> &'static str {
-        self.gate.word()
+        self.0.gate.word()
     }
 
     #[getter]
     fn skipped(&self) -> Option<&'static str> {
-        self.skipped.map(|reason| reason.word())
+        self.0.skipped.map(|reason| reason.word())
     }
 
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
-        let Self { leverage, forgetting_factor, rank, .. } = self;
-        let error = self.error.show(py)?.repr()?;
-        let skipped = self.skipped.map_or("None".into(), |reason| format!("{:?}", reason.word()));
-        let gate = self.gate.word();
-        let windup = if self.windup { "True" } else { "False" };
+        let forgetting_runtime::Update { leverage, forgetting_factor, rank, .. } = self.0;
+        let error = self.error(py)?.repr()?;
+        let skipped = self.skipped().map_or("None".into(), |reason| format!("{reason:?}"));
+        let gate = self.gate();
+        let windup = if self.windup() { "True" } else { "False" };
         Ok(format!(
             "Update(error={error}, leverage={leverage}, forgetting_factor={forgetting_factor}, \
              rank={rank}, skipped={skipped}, gate={gate:?}, windup={windup})"

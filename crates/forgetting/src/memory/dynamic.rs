@@ -20,6 +20,9 @@ impl<T: Real> Dynamic<T> {
     /// The most numbers that a list can hold.
     pub const LONGEST_LIST: usize = 1 << 20;
 
+    /// The sizes allowed, in words.
+    pub const SIZES: &'static str = "whole numbers from 1 to 32768";
+
     /// `parameters` n, `rows` p and `targets` m, each from 1 to 2¹⁵.
     ///
     /// # Errors
@@ -28,7 +31,7 @@ impl<T: Real> Dynamic<T> {
         let sizes = [("parameters", parameters), ("rows", rows), ("targets", targets)];
         for (name, size) in sizes {
             if !(1..=1 << 15).contains(&size) {
-                return Err(Error::value(name, size as f64, "whole numbers from 1 to 32768"));
+                return Err(Error::value(name, size as f64, Self::SIZES));
             }
         }
         Ok(Self { parameters, rows, targets, real: PhantomData })

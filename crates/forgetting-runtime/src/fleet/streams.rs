@@ -1,22 +1,13 @@
 //! The streams of a fleet: in blocks of lanes where the rule has a form for it, else an estimator
 //! each.
 
-use super::{estimators, parallel};
-use crate::arrays::Number;
-use crate::errors::raise;
+use super::{estimators, threads};
+use crate::number::Number;
+use crate::{Array, Elements, StreamHealth};
 use forgetting::fleet::{check_kind, Fleet, Outputs, Part, Samples};
 use forgetting::rates::{AnyRate, Constant, Rate};
 use forgetting::saved::AnyEstimator;
 use forgetting::{Dynamic, Error, Estimator, Memory, Prior};
-use pyo3::prelude::*;
-
-/// Numbers that bound each stream's P, and what else its health is made of.
-pub struct Spread<T> {
-    pub largest: Vec<T>,
-    pub smallest: Vec<T>,
-    pub windup: Vec<bool>,
-    pub samples: Vec<i64>,
-}
 
 /// Streams of the same sizes, rule, rate and weighting.
 #[derive(Clone)]
@@ -46,7 +37,8 @@ impl<T: Number> Streams<T> {
         }
     }
 
-    pub fn len(&self) -> usize {
+    /// How many there are.
+    pub fn count(&self) -> usize {
         match self {
             Self::Blocks(fleet) => fleet.count(),
             Self::Estimators { each, .. } => each.len(),
@@ -58,15 +50,20 @@ impl<T: Number> Streams<T> {
         self.fresh().prior().memory().parameters()
     }
 
+    /// (count, n)
+    pub fn shape(&self) -> [usize; 2] {
+        [self.count(), self.parameters()]
+    }
+
     /// Adds `count` new streams.
     ///
     /// # Errors
-    /// `MemoryError` when there is no memory; nothing has changed.
-    pub fn grow(&mut self, count: usize) -> PyResult<()> {
+    /// [`Error::Memory`] when there is none; nothing has changed.
+    pub fn grow(&mut self, count: usize) -> Result<(), Error> {
         match self {
-            Self::Blocks(fleet) => fleet.grow(count).map_err(raise),
+            Self::Blocks(fleet) => fleet.grow(count),
             Self::Estimators { fresh, each } => {
-                each.try_reserve(count).map_err(|_| raise(Error::Memory))?;
+                each.try_reserve(count).map_err(|_| Error::Memory)?;
                 each.extend(std::iter::repeat_n(fresh.as_ref(), count).cloned());
                 Ok(())
             }
@@ -84,12 +81,12 @@ impl<T: Number> Streams<T> {
     /// Puts `estimator` in the place of the stream at `index`.
     ///
     /// # Errors
-    /// `InvalidInput` unless it is one of this fleet's kind; see [`check_kind`].
-    pub fn put(&mut self, index: usize, estimator: AnyEstimator<T>) -> PyResult<()> {
+    /// [`Error::Unsupported`] unless it is one of this fleet's kind; see [`check_kind`].
+    pub fn put(&mut self, index: usize, estimator: AnyEstimator<T>) -> Result<(), Error> {
         match self {
-            Self::Blocks(fleet) => fleet.put(index, estimator).map_err(raise),
+            Self::Blocks(fleet) => fleet.put(index, estimator),
             Self::Estimators { fresh, each } => {
-                check_kind(fresh, &estimator).map_err(raise)?;
+                check_kind(fresh, &estimator)?;
                 each[index] = estimator;
                 Ok(())
             }
@@ -104,26 +101,27 @@ impl<T: Number> Streams<T> {
     pub fn update(
         &mut self,
         samples: Samples<'_, T>,
-        told: Outputs<'_, T>,
+        outputs: Outputs<'_, T>,
         threads: Option<usize>,
     ) -> Result<usize, Error> {
-        let (count, n) = (self.len(), self.parameters());
+        let (count, n) = (self.count(), self.parameters());
         match self {
             Self::Blocks(fleet) => {
-                let parts = fleet.parts(parallel::parts(threads, count * n * (n + 3) / 2))?;
+                let parts = fleet.parts(threads::parts(threads, count * n * (n + 3) / 2))?;
                 let parts = parts.map(|part| (part.count(), part));
-                let work =
-                    |mut part: Part<'_, T>, samples: Samples<'_, T>, mut told: Outputs<'_, T>| {
-                        part.update(samples, &mut told)
-                    };
-                Ok(parallel::sum(parts, n, (samples, told), work))
+                let work = |mut part: Part<'_, T>,
+                            samples: Samples<'_, T>,
+                            mut outputs: Outputs<'_, T>| {
+                    part.update(samples, &mut outputs)
+                };
+                Ok(threads::sum(parts, n, (samples, outputs), work))
             }
             Self::Estimators { each, .. } => {
-                let parts = parallel::parts(threads, count * n * (n + 3) * estimators::EFFORT);
+                let parts = threads::parts(threads, count * n * (n + 3) * estimators::EFFORT);
                 let parts = each.chunks_mut(count.div_ceil(parts).max(1));
                 let parts = parts.map(|part| (part.len(), part));
-                Ok(parallel::sum(parts, n, (samples, told), |part, samples, mut told| {
-                    estimators::update(part, samples, &mut told)
+                Ok(threads::sum(parts, n, (samples, outputs), |part, samples, mut outputs| {
+                    estimators::update(part, samples, &mut outputs)
                 }))
             }
         }
@@ -142,7 +140,7 @@ impl<T: Number> Streams<T> {
 
     /// θ of each stream, n numbers after n numbers.
     pub fn theta(&self) -> Vec<T> {
-        let mut theta = vec![T::ZERO; self.parameters() * self.len()];
+        let mut theta = vec![T::ZERO; self.parameters() * self.count()];
         match self {
             Self::Blocks(fleet) => fleet.theta(&mut theta),
             Self::Estimators { each, .. } => {
@@ -157,7 +155,7 @@ impl<T: Number> Streams<T> {
 
     /// The diagonal of P of each stream, n numbers after n numbers.
     pub fn variance(&self) -> Vec<T> {
-        let mut variances = vec![T::ZERO; self.parameters() * self.len()];
+        let mut variances = vec![T::ZERO; self.parameters() * self.count()];
         match self {
             Self::Blocks(fleet) => fleet.variances(&mut variances),
             Self::Estimators { each, .. } => {
@@ -170,22 +168,39 @@ impl<T: Number> Streams<T> {
         variances
     }
 
-    /// What the health of each stream is made of.
-    pub fn spread(&self) -> Spread<T> {
+    /// Samples used by each stream since its start.
+    pub fn samples(&self) -> Vec<i64> {
         match self {
-            Self::Estimators { each, .. } => estimators::spread(each),
-            Self::Blocks(fleet) => {
-                let count = fleet.count();
-                let (mut largest, mut smallest) = (vec![T::ZERO; count], vec![T::ZERO; count]);
-                fleet.extremes(&mut largest, &mut smallest);
-                let limit = |i| T::from_f64(AnyEstimator::<T>::WINDUP) * fleet.first_largest(i);
-                Spread {
-                    windup: largest.iter().enumerate().map(|(i, &d)| d > limit(i)).collect(),
-                    samples: (0..count).map(|i| fleet.samples(i) as i64).collect(),
-                    largest,
-                    smallest,
-                }
+            Self::Blocks(fleet) => (0..fleet.count()).map(|i| fleet.samples(i) as i64).collect(),
+            Self::Estimators { each, .. } => each.iter().map(|e| e.samples() as i64).collect(),
+        }
+    }
+
+    /// What the health of each stream is made of.
+    pub fn health(&self) -> StreamHealth {
+        let count = self.count();
+        let (mut largest, mut smallest) = (vec![T::ZERO; count], vec![T::ZERO; count]);
+        match self {
+            Self::Blocks(fleet) => fleet.extremes(&mut largest, &mut smallest),
+            Self::Estimators { each, .. } => {
+                estimators::extremes(each, &mut largest, &mut smallest);
             }
+        }
+        let limit = |i| T::from_f64(AnyEstimator::<T>::WINDUP) * self.first_largest(i);
+        let windup = largest.iter().enumerate().map(|(i, &d)| d > limit(i)).collect();
+        StreamHealth {
+            windup: Array { shape: vec![count], elements: Elements::Bool(windup) },
+            samples: Array { shape: vec![count], elements: Elements::I64(self.samples()) },
+            largest: T::array(largest, &[count]),
+            smallest: T::array(smallest, &[count]),
+        }
+    }
+
+    /// The largest element of D of the stream at `index` before its first sample.
+    fn first_largest(&self, index: usize) -> T {
+        match self {
+            Self::Blocks(fleet) => fleet.first_largest(index),
+            Self::Estimators { each, .. } => each[index].prior().factor().largest(),
         }
     }
 

@@ -1,48 +1,15 @@
 //! The class `Fleet`.
 
-mod estimators;
-mod make;
-mod parallel;
-mod streams;
-mod update;
-
-pub use update::FleetUpdate;
-
-use crate::arrays::{shaped, Number};
+use crate::arrays::{optional, output, Input};
+use crate::choice::{read, read_forgetting_factor, read_gate};
 use crate::errors::{invalid, raise};
-use crate::results;
-use crate::rls::{either, new, Inner as One, Rls};
-use forgetting::fleet::check_kind;
-use forgetting::saved::{number_type, AnyEstimator};
-use forgetting_cpu::{level, Fused, Level};
-use make::{check_callables, read_count, Arguments};
-use pyo3::exceptions::{PyIndexError, PyTypeError};
+use crate::rls::Rls;
+use crate::settings::{names, read_optional, view, write_description};
+use forgetting_runtime::{check_shape, size, threads, NumberType, Settings};
+use numpy::{PyArray1, PyArrayMethods};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyTuple, PyType};
-use streams::Streams;
-use update::{read_mask, DEFAULT_OUTPUTS};
-
-#[derive(Clone)]
-enum Inner {
-    Double(Box<Streams<f64>>),
-    Single(Box<Streams<f32>>),
-    // on a machine with fused multiply-add
-    FusedDouble(Box<Streams<Fused<f64>>>),
-    FusedSingle(Box<Streams<Fused<f32>>>),
-}
-
-/// The same expression for streams and one more thing of the same number type.
-macro_rules! both {
-    ($inner:expr, $Other:ident $other:expr; $streams:ident, $one:ident => $expression:expr) => {
-        match ($inner, $other) {
-            (Inner::Double($streams), $Other::Double($one)) => Some($expression),
-            (Inner::Single($streams), $Other::Single($one)) => Some($expression),
-            (Inner::FusedDouble($streams), $Other::FusedDouble($one)) => Some($expression),
-            (Inner::FusedSingle($streams), $Other::FusedSingle($one)) => Some($expression),
-            _ => None,
-        }
-    };
-}
 
 /// Many independent streams of the same number of parameters and the same rule, updated together.
 ///
@@ -94,11 +61,7 @@ macro_rules! both {
 /// >>> bool(abs(fleet.theta[:, 1] - slope).max() < 1e-3)
 /// True
 #[pyclass(name = "Fleet", module = "forgetting")]
-pub struct Fleet {
-    inner: Inner,
-    /// None for what suits the machine
-    threads: Option<usize>,
-}
+pub struct Fleet(forgetting_runtime::Fleet);
 
 #[pymethods]
 impl Fleet {
@@ -118,31 +81,32 @@ impl Fleet {
         dtype: &str,
         threads: Option<i64>,
     ) -> PyResult<Self> {
-        let count = read_count(count)?;
-        let double = match dtype {
-            "float64" => true,
-            "float32" => false,
-            _ => {
-                let allowed = r#""float64", "float32""#;
-                return Err(invalid(format!("dtype = {dtype:?}, allowed: {allowed}")));
-            }
+        let number_type = NumberType::named(dtype).map_err(raise)?;
+        let parameters = size("parameters", parameters).map_err(raise)?;
+        let threads = forgetting_runtime::threads(threads).map_err(raise)?;
+        let factor = read_optional("forgetting_factor", forgetting_factor, number_type)?;
+        let covariance = read_optional("initial_covariance", initial_covariance, number_type)?;
+        let theta = read_optional("initial_theta", initial_theta, number_type)?;
+        let settings = Settings {
+            number_type,
+            rule: read("rule", rule)?,
+            forgetting_factor: read_forgetting_factor(rule)?,
+            weighting: read("weighting", weighting)?,
+            gate: read_gate(gate)?,
+            initial_covariance: view("initial_covariance", &covariance)?,
+            initial_theta: view("initial_theta", &theta)?,
+            ..Settings::new(parameters)
         };
-        let given = Arguments {
-            rule,
-            weighting,
-            gate,
-            forgetting_factor,
-            initial_covariance,
-            initial_theta,
-        };
-        let threads = read_threads(threads)?;
-        Ok(Self { inner: new!(double, make::fleet(count, parameters, &given)?), threads })
+        let factor = view("forgetting_factor", &factor)?;
+        let mut fleet = forgetting_runtime::Fleet::new(count, &settings, factor).map_err(raise)?;
+        fleet.set_threads(threads);
+        Ok(Self(fleet))
     }
 
     /// Number of streams.
     #[getter]
     fn count(&self) -> usize {
-        either!(&self.inner, s => s.len())
+        self.0.count()
     }
 
     fn __len__(&self) -> usize {
@@ -152,70 +116,63 @@ impl Fleet {
     /// Number n of parameters of each stream.
     #[getter]
     fn parameters(&self) -> usize {
-        either!(&self.inner, s => s.parameters())
+        self.0.parameters()
     }
 
     /// Cores that an update runs on; None for all where that is faster.
     #[getter]
     fn threads(&self) -> Option<usize> {
-        self.threads
+        self.0.threads()
     }
 
     #[setter]
-    fn set_threads(&mut self, threads: Option<i64>) -> PyResult<()> {
-        self.threads = read_threads(threads)?;
+    fn set_threads(&mut self, count: Option<i64>) -> PyResult<()> {
+        self.0.set_threads(threads(count).map_err(raise)?);
         Ok(())
     }
 
     /// Name of the number type.
     #[getter]
     fn dtype(&self) -> &'static str {
-        match self.inner {
-            Inner::Double(_) | Inner::FusedDouble(_) => f64::DTYPE,
-            Inner::Single(_) | Inner::FusedSingle(_) => f32::DTYPE,
-        }
+        self.0.number_type().name()
     }
 
     /// The forgetting rule, as an object that would make the same one. Where forgetting factors
     /// differ, it has that of a new stream; see `forgetting_factor`.
     #[getter]
     fn rule<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let description = either!(&self.inner, s => results::describe(py, s.fresh()))?;
+        let description = write_description(py, &self.0.describe())?;
         let choices = py.import("forgetting.choices")?;
         choices.call_method1("rule_from_description", (description, self.dtype()))
     }
 
     /// The forgetting factor of each stream, (count,); None where it is not constant.
     #[getter]
-    fn forgetting_factor<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
-        let count = self.count();
-        either!(&self.inner, s => {
-            s.forgetting_factor().map(|factors| shaped(py, factors, &[count])).transpose()
-        })
+    fn forgetting_factor(&self, py: Python<'_>) -> PyResult<Option<Py<PyAny>>> {
+        optional(py, self.0.forgetting_factor())
     }
 
     /// The estimates, (count, n).
     #[getter]
     fn theta<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        either!(&self.inner, s => shaped(py, s.theta(), &[s.len(), s.parameters()]))
+        output(py, self.0.theta())
     }
 
     /// The diagonal of each stream's covariance P, (count, n), in units of 1/phi**2.
     #[getter]
     fn variance<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        either!(&self.inner, s => shaped(py, s.variance(), &[s.len(), s.parameters()]))
+        output(py, self.0.variance())
     }
 
     /// Samples used by each stream since its start, (count,).
     #[getter]
     fn samples<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        either!(&self.inner, s => shaped(py, s.spread().samples, &[s.len()]))
+        output(py, self.0.samples())
     }
 
     /// The covariance P of the stream at `index`, (n, n), in units of 1/phi**2.
     fn covariance<'py>(&self, py: Python<'py>, index: i64) -> PyResult<Bound<'py, PyAny>> {
-        let index = self.position(index)?;
-        either!(&self.inner, s => results::covariance(py, &s.get(index)))
+        output(py, self.0.covariance(index).map_err(raise)?)
     }
 
     /// How far each estimate can be trusted now, in O(n) a stream.
@@ -224,14 +181,9 @@ impl Fleet {
     /// -------
     /// FleetHealth
     fn health<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let count = self.count();
-        let (largest, smallest, windup, samples) = either!(&self.inner, s => {
-            let spread = s.spread();
-            let samples = shaped(py, spread.samples, &[count])?;
-            let windup = shaped(py, spread.windup, &[count])?;
-            let largest = shaped(py, spread.largest, &[count])?;
-            (largest, shaped(py, spread.smallest, &[count])?, windup, samples)
-        });
+        let health = self.0.health();
+        let (largest, smallest) = (output(py, health.largest)?, output(py, health.smallest)?);
+        let (windup, samples) = (output(py, health.windup)?, output(py, health.samples)?);
         let made = (self.dtype(), largest, smallest, windup, samples);
         py.import("forgetting.fleet")?.call_method1("health_of", made)
     }
@@ -250,7 +202,9 @@ impl Fleet {
         py: Python<'py>,
         phi: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        either!(&self.inner, s => update::predict(py, s, phi))
+        let phi = Input::read("phi", phi, self.0.number_type())?;
+        let phi = phi.view("phi")?;
+        output(py, py.detach(|| self.0.predict(phi)).map_err(raise)?)
     }
 
     /// Take a sample of each stream, without holding the interpreter.
@@ -284,9 +238,19 @@ impl Fleet {
         mask: Option<&Bound<'_, PyAny>>,
         outputs: Option<Vec<String>>,
     ) -> PyResult<FleetUpdate> {
-        let outputs = outputs.unwrap_or_else(|| DEFAULT_OUTPUTS.map(String::from).to_vec());
-        let threads = self.threads;
-        either!(&mut self.inner, s => update::update(py, s, (phi, y, mask), &outputs, threads))
+        let number_type = self.0.number_type();
+        let mask = mask.map(|mask| read_mask(mask, self.count())).transpose()?;
+        let phi = Input::read("phi", phi, number_type)?;
+        let y = Input::read("y", y, number_type)?;
+        let samples = (phi.view("phi")?, y.view("y")?, mask.as_deref());
+        let outputs = names(&outputs);
+        let update = py.detach(|| self.0.update(samples, outputs.as_deref())).map_err(raise)?;
+        Ok(FleetUpdate {
+            error: optional(py, update.error)?,
+            leverage: optional(py, update.leverage)?,
+            skipped: optional(py, update.skipped)?,
+            used: update.used,
+        })
     }
 
     /// Add streams after the last.
@@ -299,14 +263,13 @@ impl Fleet {
     ///     the default where one was given for each.
     fn append(slf: &Bound<'_, Self>, more: &Bound<'_, PyAny>) -> PyResult<()> {
         if let Ok(other) = more.cast::<Self>() {
-            let other = other.borrow().inner.clone();
-            return slf.borrow_mut().join(&other);
+            let other = other.borrow().0.clone();
+            return slf.borrow_mut().0.append(&other).map_err(raise);
         }
         let count = more
             .extract::<i64>()
             .map_err(|_| invalid(format!("more = {more:?}, allowed: a whole number or a Fleet")))?;
-        let count = read_count(count)?;
-        either!(&mut slf.borrow_mut().inner, s => s.grow(count))
+        slf.borrow_mut().0.grow(count).map_err(raise)
     }
 
     /// Back to the initial estimate and covariance, as if no sample had been seen.
@@ -318,8 +281,7 @@ impl Fleet {
     #[pyo3(signature = (mask=None))]
     fn reset(&mut self, mask: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
         let mask = mask.map(|mask| read_mask(mask, self.count())).transpose()?;
-        either!(&mut self.inner, s => s.reset(mask.as_deref()));
-        Ok(())
+        self.0.reset(mask.as_deref()).map_err(raise)
     }
 
     /// The streams as an Arrow table: one row a stream, with its number `stream` and its `state`,
@@ -339,40 +301,26 @@ impl Fleet {
 
     /// The state of a new stream, then that of each stream, as `RLS.to_bytes` says it.
     fn _states<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyBytes>>> {
-        either!(&self.inner, s => {
-            let state = |estimator: &AnyEstimator<_>| {
-                Ok(PyBytes::new(py, &estimator.to_bytes().map_err(raise)?))
-            };
-            let each = (0..s.len()).map(|i| state(&s.get(i)));
-            std::iter::once(state(s.fresh())).chain(each).collect()
-        })
+        let fresh = std::iter::once_with(|| self.0.fresh_state());
+        let states = fresh.chain((0..self.count() as i64).map(|stream| self.0.state(stream)));
+        states.map(|state| Ok(PyBytes::new(py, &state.map_err(raise)?))).collect()
     }
 
     /// The fleet that has these states.
     #[staticmethod]
     fn _of_states(fresh: &[u8], states: Vec<Bound<'_, PyBytes>>) -> PyResult<Self> {
-        let double = number_type(fresh).map_err(raise)? == 8;
-        Ok(Self { inner: new!(double, restore(fresh, &states)?), threads: None })
+        let states: Vec<&[u8]> = states.iter().map(|state| state.as_bytes()).collect();
+        forgetting_runtime::Fleet::from_states(fresh, &states).map(Self).map_err(raise)
     }
 
     /// A copy of the stream at `index`, as an estimator that goes on from there.
     fn __getitem__(&self, index: &Bound<'_, PyAny>) -> PyResult<Rls> {
-        let index = self.position(read_index(index)?)?;
-        Ok(Rls {
-            inner: match &self.inner {
-                Inner::Double(s) => One::Double(Box::new(s.get(index))),
-                Inner::Single(s) => One::Single(Box::new(s.get(index))),
-                Inner::FusedDouble(s) => One::FusedDouble(Box::new(s.get(index))),
-                Inner::FusedSingle(s) => One::FusedSingle(Box::new(s.get(index))),
-            },
-        })
+        Ok(Rls { estimator: self.0.get(read_index(index)?).map_err(raise)? })
     }
 
     /// Puts a copy of `estimator` in the place of the stream at `index`.
     fn __setitem__(&mut self, index: &Bound<'_, PyAny>, estimator: &Rls) -> PyResult<()> {
-        let index = self.position(read_index(index)?)?;
-        both!(&mut self.inner, One &estimator.inner; s, one => s.put(index, one.as_ref().clone()))
-            .unwrap_or_else(|| Err(invalid("a stream has the dtype of its fleet")))
+        self.0.put(read_index(index)?, &estimator.estimator).map_err(raise)
     }
 
     #[allow(clippy::type_complexity, reason = "Python's protocol")]
@@ -385,7 +333,7 @@ impl Fleet {
     }
 
     fn __copy__(&self) -> Self {
-        Self { inner: self.inner.clone(), threads: self.threads }
+        Self(self.0.clone())
     }
 
     fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> Self {
@@ -398,53 +346,48 @@ impl Fleet {
     }
 }
 
-impl Fleet {
-    /// Where the stream at `index` is, counted from the end if negative.
-    fn position(&self, index: i64) -> PyResult<usize> {
-        let count = self.count() as i64;
-        let position = if index < 0 { index.saturating_add(count) } else { index };
-        if (0..count).contains(&position) {
-            return Ok(position as usize);
-        }
-        Err(PyIndexError::new_err(format!("stream {index} of a fleet of {count}")))
-    }
-
-    /// Adds the streams of another fleet.
-    fn join(&mut self, other: &Inner) -> PyResult<()> {
-        both!(&mut self.inner, Inner other; s, others => {
-            check_kind(s.fresh(), others.fresh()).map_err(raise)?;
-            let first = s.len();
-            s.grow(others.len())?;
-            (0..others.len()).try_for_each(|i| s.put(first + i, others.get(i)))
-        })
-        .unwrap_or_else(|| Err(invalid("a stream has the dtype of its fleet")))
-    }
-}
-
-fn read_threads(threads: Option<i64>) -> PyResult<Option<usize>> {
-    const MOST: i64 = 1024;
-    match threads {
-        Some(threads) if !(1..=MOST).contains(&threads) => {
-            Err(invalid(format!("threads = {threads}, allowed: whole numbers from 1 to {MOST}")))
-        }
-        threads => Ok(threads.map(|threads| threads as usize)),
-    }
-}
-
 fn read_index(index: &Bound<'_, PyAny>) -> PyResult<i64> {
     let whole = index.extract();
     whole.map_err(|_| PyTypeError::new_err("the index of a stream is a whole number"))
 }
 
-/// A fleet of saved streams.
-fn restore<T: Number>(fresh: &[u8], states: &[Bound<'_, PyBytes>]) -> PyResult<Streams<T>> {
-    let mut streams = Streams::of(AnyEstimator::<T>::from_bytes(fresh).map_err(raise)?);
-    check_callables(streams.fresh())?;
-    streams.grow(states.len())?;
-    for (i, state) in states.iter().enumerate() {
-        let stream = AnyEstimator::from_bytes(state.as_bytes());
-        let stream = stream.map_err(|error| invalid(format!("stream {i}: {error}")))?;
-        streams.put(i, stream)?;
+/// A yes or no for each stream, copied.
+fn read_mask(mask: &Bound<'_, PyAny>, count: usize) -> PyResult<Vec<bool>> {
+    let array = mask.py().import("numpy")?.call_method1("asarray", (mask,))?;
+    let flat = array.call_method0("ravel")?;
+    let Ok(flat) = flat.cast::<PyArray1<bool>>() else {
+        return Err(invalid("mask must hold True or False, one for each stream"));
+    };
+    let shape = array.getattr("shape")?.extract::<Vec<usize>>()?;
+    check_shape("mask", &shape, &[count]).map_err(raise)?;
+    Ok(flat.to_vec()?)
+}
+
+/// What a sample of each stream told: returned by `Fleet.update`. An output that was not asked
+/// for is None.
+///
+/// Attributes
+/// ----------
+/// error : (count,) ndarray
+///     y - phi @ theta with the theta of before, in units of y; NaN where there was no sample or
+///     it was refused.
+/// leverage : (count,) ndarray
+///     Variance of the prediction in units of the noise variance; NaN as above.
+/// skipped : (count,) ndarray of uint8
+///     0 where the sample was used, else the code of the reason, see `forgetting.SKIPPED`.
+/// used : int
+///     Number of streams that used their sample.
+#[pyclass(frozen, get_all, module = "forgetting")]
+pub struct FleetUpdate {
+    error: Option<Py<PyAny>>,
+    leverage: Option<Py<PyAny>>,
+    skipped: Option<Py<PyAny>>,
+    used: usize,
+}
+
+#[pymethods]
+impl FleetUpdate {
+    fn __repr__(&self) -> String {
+        format!("FleetUpdate(used={})", self.used)
     }
-    Ok(streams)
 }

@@ -1,7 +1,6 @@
 //! Streams that are an estimator each: any rule, rate and weighting.
 
-use super::streams::Spread;
-use crate::arrays::Number;
+use crate::number::Number;
 use forgetting::fleet::{Outputs, Samples, REFUSED};
 use forgetting::saved::AnyEstimator;
 use forgetting::{Error, Skip};
@@ -14,7 +13,7 @@ pub const EFFORT: usize = 8;
 pub fn update<T: Number>(
     streams: &mut [AnyEstimator<T>],
     samples: Samples<'_, T>,
-    told: &mut Outputs<'_, T>,
+    outputs: &mut Outputs<'_, T>,
 ) -> usize {
     let n = samples.phi.len() / streams.len().max(1);
     let mut used = 0;
@@ -25,9 +24,9 @@ pub fn update<T: Number>(
             false => nothing(Skip::Missing.code()),
         };
         used += usize::from(code == 0);
-        put(&mut told.error, i, error);
-        put(&mut told.leverage, i, leverage);
-        put(&mut told.skipped, i, code);
+        put(&mut outputs.error, i, error);
+        put(&mut outputs.leverage, i, leverage);
+        put(&mut outputs.skipped, i, code);
     }
     used
 }
@@ -68,19 +67,10 @@ pub fn predict<T: Number>(
     streams.iter().zip(each).try_for_each(|(stream, (phi, y))| stream.predict(phi, y))
 }
 
-/// What the health of each stream is made of.
-pub fn spread<T: Number>(streams: &[AnyEstimator<T>]) -> Spread<T> {
-    let factors = || streams.iter().map(AnyEstimator::factor);
-    Spread {
-        largest: factors().map(|factor| factor.largest()).collect(),
-        smallest: factors().map(|factor| factor.smallest()).collect(),
-        windup: streams.iter().map(has_wound_up).collect(),
-        samples: streams.iter().map(|stream| stream.samples() as i64).collect(),
+/// The largest and the smallest element of D of each stream.
+pub fn extremes<T: Number>(streams: &[AnyEstimator<T>], largest: &mut [T], smallest: &mut [T]) {
+    let places = largest.iter_mut().zip(smallest);
+    for (stream, (largest, smallest)) in streams.iter().zip(places) {
+        (*largest, *smallest) = (stream.factor().largest(), stream.factor().smallest());
     }
-}
-
-/// Whether P has grown to more than ten times its first value, as an update says it.
-fn has_wound_up<T: Number>(stream: &AnyEstimator<T>) -> bool {
-    let first = stream.prior().factor().largest();
-    stream.factor().largest() > T::from_f64(AnyEstimator::<T>::WINDUP) * first
 }

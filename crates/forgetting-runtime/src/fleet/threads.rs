@@ -36,18 +36,21 @@ fn has_threads() -> bool {
 pub fn sum<'a, T: Real, P: Send>(
     parts: impl Iterator<Item = (usize, P)>,
     n: usize,
-    (mut samples, mut told): (Samples<'a, T>, Outputs<'a, T>),
+    (mut samples, mut outputs): (Samples<'a, T>, Outputs<'a, T>),
     work: impl Fn(P, Samples<'a, T>, Outputs<'a, T>) -> usize + Sync + Send,
 ) -> usize {
     let mut tasks = Vec::new();
     for (count, part) in parts {
-        let (own_samples, own_told);
+        let (own_samples, own_outputs);
         (own_samples, samples) = samples.split_at(count, n);
-        (own_told, told) = told.split_at(count);
-        tasks.push((part, own_samples, own_told));
+        (own_outputs, outputs) = outputs.split_at(count);
+        tasks.push((part, own_samples, own_outputs));
     }
     if tasks.len() < 2 {
-        return tasks.into_iter().map(|(part, samples, told)| work(part, samples, told)).sum();
+        return tasks
+            .into_iter()
+            .map(|(part, samples, outputs)| work(part, samples, outputs))
+            .sum();
     }
-    tasks.into_par_iter().map(|(part, samples, told)| work(part, samples, told)).sum()
+    tasks.into_par_iter().map(|(part, samples, outputs)| work(part, samples, outputs)).sum()
 }

@@ -1,0 +1,78 @@
+//! The results of a record, for Python.
+
+use crate::arrays::optional;
+use pyo3::prelude::*;
+
+/// Results of `RLS.run`, one entry a sample; an output that was not asked for is None.
+///
+/// Attributes
+/// ----------
+/// theta : ndarray (T, n) or (T, n, targets)
+///     Estimate after each sample.
+/// error : ndarray (T, rows) or (T, rows, targets)
+///     y - phi @ theta with the theta of before, in units of y; NaN where a value is missing.
+/// leverage : ndarray (T,)
+///     Variance of the prediction in units of the noise variance.
+/// forgetting_factor : ndarray (T,)
+///     Forgetting factor used; 1 where the sample was skipped as missing.
+/// rank : ndarray (T,) of int64
+///     Number of directions that lost information.
+/// skipped : ndarray (T,) of uint8
+///     Code of the reason, see `forgetting.SKIPPED`; 0 where the sample was used.
+/// gate : ndarray (T,) of uint8
+///     Code of what the gate said, see `forgetting.GATE`; 0 where it was open.
+/// windup : ndarray (T,) of bool
+///     Whether the covariance has grown to more than ten times its first value.
+/// whitened_innovation : ndarray (T, rows) or (T, rows, targets)
+///     solve(L, error) with L @ L.T = gamma + phi @ P @ phi.T, L lower triangular and P that after
+///     forgetting; NaN where a value is missing. See `Update`.
+/// variance : ndarray (T, n)
+///     Diagonal of P after each sample.
+/// covariance : ndarray (T, n, n)
+///     P after each sample.
+/// prior_covariance : ndarray (T, n, n)
+///     P after forgetting and before the data of each sample.
+/// samples, used, skipped_count : int
+///     Number of samples in the record, used, and left out.
+#[pyclass(frozen, get_all, module = "forgetting")]
+pub struct Run {
+    theta: Option<Py<PyAny>>,
+    error: Option<Py<PyAny>>,
+    leverage: Option<Py<PyAny>>,
+    forgetting_factor: Option<Py<PyAny>>,
+    rank: Option<Py<PyAny>>,
+    skipped: Option<Py<PyAny>>,
+    gate: Option<Py<PyAny>>,
+    windup: Option<Py<PyAny>>,
+    whitened_innovation: Option<Py<PyAny>>,
+    variance: Option<Py<PyAny>>,
+    covariance: Option<Py<PyAny>>,
+    prior_covariance: Option<Py<PyAny>>,
+    samples: usize,
+    used: usize,
+    skipped_count: usize,
+}
+
+impl Run {
+    /// From the results of the run time.
+    pub fn new(py: Python<'_>, mut run: forgetting_runtime::Run) -> PyResult<Self> {
+        let mut take = |name| optional(py, run.take(name));
+        Ok(Self {
+            theta: take("theta")?,
+            error: take("error")?,
+            leverage: take("leverage")?,
+            forgetting_factor: take("forgetting_factor")?,
+            rank: take("rank")?,
+            skipped: take("skipped")?,
+            gate: take("gate")?,
+            windup: take("windup")?,
+            whitened_innovation: take("whitened_innovation")?,
+            variance: take("variance")?,
+            covariance: take("covariance")?,
+            prior_covariance: take("prior_covariance")?,
+            samples: run.samples,
+            used: run.used,
+            skipped_count: run.samples - run.used,
+        })
+    }
+}

@@ -1,0 +1,65 @@
+//! What `RLS` and `Fleet` are given alike, and what both show.
+
+use crate::arrays::{output, Input};
+use crate::choice::write;
+use forgetting_runtime::{Description, Health, NumberType, View};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+/// Numbers that may be left out.
+///
+/// # Errors
+/// `InvalidInput` names the parameter when its values are not numbers.
+pub fn read_optional<'a, 'py>(
+    name: &str,
+    values: Option<&'a Bound<'py, PyAny>>,
+    number_type: NumberType,
+) -> PyResult<Option<Input<'a, 'py>>> {
+    values.map(|values| Input::read(name, values, number_type)).transpose()
+}
+
+/// The numbers of [`read_optional`] in their shape.
+pub fn view<'a>(
+    name: &'static str,
+    input: &'a Option<Input<'_, '_>>,
+) -> PyResult<Option<View<'a>>> {
+    input.as_ref().map(|input| input.view(name)).transpose()
+}
+
+/// Names of outputs as they are passed on.
+pub fn names(outputs: &Option<Vec<String>>) -> Option<Vec<&str>> {
+    outputs.as_ref().map(|outputs| outputs.iter().map(String::as_str).collect())
+}
+
+/// Rule, rate, weighting and gate by name, each with its parameters.
+pub fn write_description<'py>(
+    py: Python<'py>,
+    description: &Description,
+) -> PyResult<Bound<'py, PyDict>> {
+    let Description { rule, rate, weighting, gate } = description;
+    let written = PyDict::new(py);
+    for (name, choice) in [("rule", rule), ("rate", rate), ("weighting", weighting), ("gate", gate)]
+    {
+        written.set_item(name, write(py, choice)?)?;
+    }
+    Ok(written)
+}
+
+/// What the watch has found; the names are those of [`Health`].
+pub fn write_health(py: Python<'_>, health: Health) -> PyResult<Bound<'_, PyDict>> {
+    let written = PyDict::new(py);
+    written.set_item("windup", health.windup)?;
+    written.set_item("informed", health.informed)?;
+    written.set_item("direction", output(py, health.direction)?)?;
+    written.set_item("least_variances", output(py, health.least_variances)?)?;
+    written.set_item("variance", health.variance)?;
+    written.set_item("growth", health.growth)?;
+    written.set_item("since_informed", health.since_informed)?;
+    written.set_item("since_excited", output(py, health.since_excited)?)?;
+    written.set_item("samples", health.samples)?;
+    written.set_item("block", health.block)?;
+    written.set_item("noise_variance", health.noise_variance)?;
+    written.set_item("correlation", health.correlation)?;
+    written.set_item("weight", health.weight)?;
+    Ok(written)
+}

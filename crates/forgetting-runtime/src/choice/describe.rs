@@ -1,0 +1,86 @@
+//! From what was chosen back to the choice.
+
+use super::{Choice, Description, Value};
+use crate::function::original;
+use crate::number::Number;
+use forgetting::gates::Gate;
+use forgetting::parameter;
+use forgetting::rates::Rate;
+use forgetting::rules::Forgetting;
+use forgetting::saved::AnyEstimator;
+use forgetting::weighting::Weighting;
+
+impl Description {
+    /// What `estimator` is made of.
+    pub(crate) fn of<T: Number>(estimator: &AnyEstimator<T>) -> Self {
+        let (rule, rate) = (estimator.rule(), estimator.rate());
+        let (weighting, gate) = (estimator.weighting(), estimator.gate());
+        Self {
+            rule: Choice::described::<T>(rule.about().name, |each| {
+                rule.describe(&mut |name, value| each(name, value));
+            }),
+            rate: Choice::described::<T>(rate.about().name, |each| {
+                rate.describe(&mut |name, value| each(name, value));
+            }),
+            weighting: Choice::described::<T>(weighting.about().name, |each| {
+                weighting.describe(&mut |name, value| each(name, value));
+            }),
+            gate: Choice::described::<T>(gate.about().name, |each| {
+                gate.describe(&mut |name, value| each(name, value));
+            }),
+        }
+    }
+
+    /// Whether a function of the user's is part of it.
+    pub(crate) fn has_function(&self) -> bool {
+        [&self.rule, &self.rate, &self.weighting, &self.gate].into_iter().any(Choice::has_function)
+    }
+}
+
+impl Choice {
+    /// The choice of this name whose values `describe` names one by one.
+    fn described<T: Number>(
+        name: &str,
+        describe: impl FnOnce(&mut dyn FnMut(&str, parameter::Value<'_>)),
+    ) -> Self {
+        let mut choice = Self::named(name);
+        describe(&mut |name, value| {
+            let value = Value::of::<T>(value);
+            choice.parameters.extend(value.map(|value| (name.to_owned(), value)));
+        });
+        choice
+    }
+
+    fn has_function(&self) -> bool {
+        self.parameters.iter().any(|(_, value)| match value {
+            Value::Function(_) => true,
+            Value::Choice(rule) => rule.has_function(),
+            _ => false,
+        })
+    }
+}
+
+impl Value {
+    /// A value of the core's; none for a function that no interface made.
+    fn of<T: Number>(value: parameter::Value<'_>) -> Option<Self> {
+        Some(match value {
+            parameter::Value::Real(number) => Self::Number(number),
+            parameter::Value::Word(word) => Self::Word(word.into()),
+            parameter::Value::Matrix { rows, columns, elements } => Self::Matrix {
+                rows,
+                columns,
+                elements: (0..rows * columns).map(elements).collect(),
+            },
+            parameter::Value::Choice { name, values } => {
+                Self::Choice(Choice::described::<T>(name, |each| values.each(each)))
+            }
+            parameter::Value::Function(function) => Self::Function(original::<T>(function)?),
+        })
+    }
+
+    /// The default of a parameter, if it has one.
+    #[must_use]
+    pub fn default_of(parameter: &parameter::Parameter) -> Option<Self> {
+        parameter.default.and_then(Self::of::<f64>)
+    }
+}

@@ -1,0 +1,102 @@
+//! An estimator from its settings.
+
+use crate::function::{for_gate, for_rate, for_rule};
+use crate::number::Number;
+use crate::settings::{Settings, INITIAL_COVARIANCE};
+use crate::{Choice, Error, View};
+use forgetting::gates::{AnyGate, GATES};
+use forgetting::rates::{AnyRate, RATES};
+use forgetting::rules::{Rule, RULES};
+use forgetting::saved::AnyEstimator;
+use forgetting::weighting::{AnyWeighting, WEIGHTINGS};
+use forgetting::{Dynamic, Estimator, Memory, Prior};
+
+/// The estimator that `settings` say, with `initial_covariance` and `initial_theta` in the place
+/// of those in the settings.
+pub(crate) fn estimator<T: Number>(
+    settings: &Settings<'_>,
+    initial_covariance: Option<View<'_>>,
+    initial_theta: Option<View<'_>>,
+) -> Result<AnyEstimator<T>, Error> {
+    let Settings { parameters, rows, targets, .. } = *settings;
+    let memory = Dynamic::new(parameters, rows, targets)?;
+    let choice = settings.rule();
+    let (rule, rate) = (rule(&choice, memory)?, settings.forgetting_factor.rate(&choice.name));
+    let rate = make_rate(&rate, memory)?;
+    let weighting = weighting(settings.weighting.as_ref(), memory)?;
+    let gate = gate(settings.gate.as_ref(), memory)?;
+    let prior = prior(memory, initial_covariance)?;
+    let prior = match initial_theta {
+        None => prior,
+        Some(theta) => prior.with_theta(&by_target(memory, theta)?)?,
+    };
+    let mut estimator = Estimator::new(rule, rate, weighting, prior).with_gate(gate);
+    if settings.monitor {
+        estimator.watch();
+    }
+    Ok(estimator)
+}
+
+fn rule<T: Number>(choice: &Choice, memory: Dynamic<T>) -> Result<Rule<Dynamic<T>>, Error> {
+    let about = RULES.iter().find(|about| about.name == choice.name);
+    choice.make("rule", about.map(|about| about.parameters), for_rule, |name, values| {
+        Rule::named(name, values, memory)
+    })
+}
+
+fn make_rate<T: Number>(choice: &Choice, memory: Dynamic<T>) -> Result<AnyRate<Dynamic<T>>, Error> {
+    let about = RATES.iter().find(|about| about.name == choice.name);
+    choice.make("rate", about.map(|about| about.parameters), for_rate::<T>, |name, values| {
+        AnyRate::named(name, values, memory)
+    })
+}
+
+fn weighting<T: Number>(
+    choice: Option<&Choice>,
+    memory: Dynamic<T>,
+) -> Result<AnyWeighting<Dynamic<T>>, Error> {
+    let choice = choice.cloned().unwrap_or_else(|| Choice::named("equal"));
+    let about = WEIGHTINGS.iter().find(|about| about.name == choice.name);
+    // no weighting takes a function: it is then refused as the value of its parameter
+    choice.make("weighting", about.map(|about| about.parameters), for_rule, |name, values| {
+        AnyWeighting::named(name, values, memory)
+    })
+}
+
+fn gate<T: Number>(
+    choice: Option<&Choice>,
+    memory: Dynamic<T>,
+) -> Result<AnyGate<Dynamic<T>>, Error> {
+    let choice = choice.cloned().unwrap_or_else(|| Choice::named("open"));
+    let about = GATES.iter().find(|about| about.name == choice.name);
+    choice.make("gate", about.map(|about| about.parameters), for_gate::<T>, |name, values| {
+        AnyGate::named(name, values, memory)
+    })
+}
+
+fn prior<T: Number>(
+    memory: Dynamic<T>,
+    covariance: Option<View<'_>>,
+) -> Result<Prior<Dynamic<T>>, Error> {
+    let Some(covariance) = covariance else {
+        return Ok(Prior::scalar(memory, T::from_f64(INITIAL_COVARIANCE))?);
+    };
+    let numbers = T::read(covariance.numbers());
+    Ok(match (covariance.shape().len(), &*numbers) {
+        (0, [variance]) => Prior::scalar(memory, *variance),
+        (1, variances) => Prior::diagonal(memory, variances),
+        (_, covariance) => Prior::dense(memory, covariance),
+    }?)
+}
+
+/// θ as (n,) or (n, targets), one target after the other.
+fn by_target<T: Number>(memory: Dynamic<T>, theta: View<'_>) -> Result<Vec<T>, Error> {
+    let (n, m) = (memory.parameters(), memory.targets());
+    let shape = theta.shape();
+    if shape != [n, m] && !(m == 1 && shape == [n]) {
+        let expected = if m == 1 { format!("({n},)") } else { format!("({n}, {m})") };
+        return Err(Error::shape("initial_theta", shape, expected));
+    }
+    let theta = T::read(theta.numbers());
+    Ok((0..m).flat_map(|t| (0..n).map(move |i| (i, t))).map(|(i, t)| theta[i * m + t]).collect())
+}

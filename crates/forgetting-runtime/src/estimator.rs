@@ -1,0 +1,247 @@
+//! An estimator of any type.
+
+use crate::by_type::{each, make, ByType, Family};
+use crate::number::Number;
+use crate::{configure, record, update};
+use crate::{Array, Description, Error, Health, Missing, NumberType, Numbers, Run, Settings};
+use crate::{Update, View};
+use forgetting::saved::{number_type, AnyEstimator};
+use forgetting::{Memory, Real};
+
+/// Estimators, with the number type left open.
+pub(crate) struct Estimators;
+
+impl Family for Estimators {
+    type Of<T: Number> = AnyEstimator<T>;
+}
+
+/// Recursive least squares with generalized forgetting, of types chosen at run time.
+///
+/// Follows θ of y = φθ + noise, sample by sample.
+#[derive(Clone)]
+pub struct Estimator {
+    pub(crate) typed: ByType<Estimators>,
+    calls_function: bool,
+}
+
+impl Estimator {
+    /// The estimator that `settings` say, in the arithmetic that is fast on this machine.
+    ///
+    /// # Errors
+    /// [`Error`] names the parameter, its value and what is allowed.
+    pub fn new(settings: &Settings<'_>) -> Result<Self, Error> {
+        let (covariance, theta) = (settings.initial_covariance, settings.initial_theta);
+        Ok(Self::of(make!(settings.number_type, T => {
+            configure::estimator::<T>(settings, covariance, theta)?
+        })))
+    }
+
+    /// The estimator that [`Estimator::to_bytes`] saved, bit for bit.
+    ///
+    /// # Errors
+    /// [`Error::Core`] says what is wrong with the bytes.
+    pub fn from_bytes(state: &[u8]) -> Result<Self, Error> {
+        Ok(Self::of(make!(saved_type(state)?, T => AnyEstimator::<T>::from_bytes(state)?)))
+    }
+
+    pub(crate) fn of(typed: ByType<Estimators>) -> Self {
+        let calls_function = each!(&typed, e => Description::of(e)).has_function();
+        Self { typed, calls_function }
+    }
+
+    /// The estimator, configuration and state, as bytes: portable, versioned and checked.
+    ///
+    /// # Errors
+    /// [`Error::Core`] when a part of it is a function of the user's.
+    pub fn to_bytes(&self) -> Result<Vec<u8>, Error> {
+        Ok(each!(&self.typed, e => e.to_bytes())?)
+    }
+
+    /// Whether a function of the user's is called in the middle of a sample.
+    ///
+    /// Such a function may do anything: an interface then passes copies of arrays that it can
+    /// reach.
+    #[inline]
+    #[must_use]
+    pub fn calls_function(&self) -> bool {
+        self.calls_function
+    }
+
+    /// Back to the initial estimate and covariance, as if there had been no sample.
+    pub fn reset(&mut self) {
+        each!(&mut self.typed, e => e.reset());
+    }
+
+    /// Takes one sample: p x n numbers `phi`, p x m numbers `y`, and Γ as one number or p x p
+    /// numbers; 1 if not given.
+    ///
+    /// # Errors
+    /// [`Error::Core`] names what was wrong; nothing has changed.
+    #[inline]
+    pub fn update(
+        &mut self,
+        phi: Numbers<'_>,
+        y: Numbers<'_>,
+        gamma: Option<Numbers<'_>>,
+    ) -> Result<Update, Error> {
+        Ok(each!(&mut self.typed, e => update::update(e, phi, y, gamma))?)
+    }
+
+    /// Takes a whole record of T samples: `phi` (T, n) or (T, p, n), `y` (T, p, m) with sizes of
+    /// 1 left out or not, `gamma` (), (p, p), (T,) or (T, p, p). `outputs` names what is kept, see
+    /// [`Run`]; [`Run::DEFAULT_OUTPUTS`] if not given.
+    ///
+    /// Equal to one [`Estimator::update`] a sample: bit for bit up to ten parameters, to rounding
+    /// above, where several samples are taken together.
+    ///
+    /// # Errors
+    /// [`Error::Sample`] names the sample and what is wrong with it, others the argument that does
+    /// not fit; the estimator is as it was before the record.
+    pub fn run(
+        &mut self,
+        (phi, y, gamma): (View<'_>, View<'_>, Option<View<'_>>),
+        missing: Missing,
+        outputs: Option<&[&str]>,
+    ) -> Result<Run, Error> {
+        let outputs = outputs.unwrap_or(&Run::DEFAULT_OUTPUTS);
+        each!(&mut self.typed, e => record::run(e, (phi, y, gamma), missing, outputs))
+    }
+
+    /// φθ of one regressor or many: (..., n) gives (...) or (..., m).
+    ///
+    /// # Errors
+    /// [`Error::Shape`] names `phi`.
+    pub fn predict(&self, phi: View<'_>) -> Result<Array, Error> {
+        each!(&self.typed, e => predict(e, phi))
+    }
+
+    /// n
+    #[must_use]
+    pub fn parameters(&self) -> usize {
+        each!(&self.typed, e => e.prior().memory().parameters())
+    }
+
+    /// p
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        each!(&self.typed, e => e.prior().memory().rows())
+    }
+
+    /// m
+    #[must_use]
+    pub fn targets(&self) -> usize {
+        each!(&self.typed, e => e.prior().memory().targets())
+    }
+
+    /// The type of its numbers.
+    #[inline]
+    #[must_use]
+    pub fn number_type(&self) -> NumberType {
+        self.typed.number_type()
+    }
+
+    /// Samples used since the start; skipped ones do not count.
+    #[must_use]
+    pub fn samples(&self) -> u64 {
+        each!(&self.typed, e => e.samples())
+    }
+
+    /// θ, (n,) or (n, m).
+    #[must_use]
+    pub fn theta(&self) -> Array {
+        each!(&self.typed, e => theta(e))
+    }
+
+    /// P, (n, n), in units of 1/φ²: times the noise variance, it is the covariance of θ.
+    #[must_use]
+    pub fn covariance(&self) -> Array {
+        each!(&self.typed, e => covariance(e))
+    }
+
+    /// U (n, n), unit upper triangular, and the diagonal of D (n,), positive, with P = U D Uᵀ.
+    #[must_use]
+    pub fn factor(&self) -> (Array, Array) {
+        each!(&self.typed, e => factor(e))
+    }
+
+    /// The largest and the smallest element of D, in O(n).
+    #[must_use]
+    pub fn extremes(&self) -> (f64, f64) {
+        each!(&self.typed, e => (e.factor().largest().to_f64(), e.factor().smallest().to_f64()))
+    }
+
+    /// What the watch has found, if there is one.
+    #[must_use]
+    pub fn health(&self) -> Option<Health> {
+        each!(&self.typed, e => Health::of(e))
+    }
+
+    /// The rule, rate, weighting and gate by name, each with its parameters.
+    #[must_use]
+    pub fn describe(&self) -> Description {
+        each!(&self.typed, e => Description::of(e))
+    }
+}
+
+/// The number type of a saved state.
+pub(crate) fn saved_type(state: &[u8]) -> Result<NumberType, Error> {
+    match number_type(state)? {
+        8 => Ok(NumberType::F64),
+        _ => Ok(NumberType::F32),
+    }
+}
+
+fn theta<T: Number>(estimator: &AnyEstimator<T>) -> Array {
+    let memory = estimator.prior().memory();
+    let (n, m) = (memory.parameters(), memory.targets());
+    if m == 1 {
+        return T::array(estimator.theta().to_vec(), &[n]);
+    }
+    let mut theta = Vec::with_capacity(n * m);
+    by_parameter(estimator, &mut theta);
+    T::array(theta, &[n, m])
+}
+
+/// Appends θ, the m numbers of the first parameter first.
+pub(crate) fn by_parameter<T: Number>(estimator: &AnyEstimator<T>, numbers: &mut Vec<T>) {
+    let memory = estimator.prior().memory();
+    let (n, m) = (memory.parameters(), memory.targets());
+    let theta = estimator.theta();
+    numbers.extend((0..n).flat_map(|i| (0..m).map(move |t| theta[t * n + i])));
+}
+
+pub(crate) fn covariance<T: Number>(estimator: &AnyEstimator<T>) -> Array {
+    let n = estimator.factor().parameters();
+    let mut dense = vec![T::ZERO; n * n];
+    estimator.factor().reconstruct(&mut dense);
+    T::array(dense, &[n, n])
+}
+
+fn factor<T: Number>(estimator: &AnyEstimator<T>) -> (Array, Array) {
+    let factor = estimator.factor();
+    let n = factor.parameters();
+    let mut dense = vec![T::ZERO; n * n];
+    for j in 0..n {
+        dense[j * n + j] = T::ONE;
+        for i in 0..j {
+            dense[i * n + j] = factor.unit(i, j);
+        }
+    }
+    (T::array(dense, &[n, n]), T::array(factor.diagonal_elements().to_vec(), &[n]))
+}
+
+fn predict<T: Number>(estimator: &AnyEstimator<T>, phi: View<'_>) -> Result<Array, Error> {
+    let memory = estimator.prior().memory();
+    let (n, m) = (memory.parameters(), memory.targets());
+    let Some((_, regressors)) = phi.shape().split_last().filter(|(last, _)| **last == n) else {
+        return Err(Error::shape("phi", phi.shape(), format!("(..., {n})")));
+    };
+    let phi = T::read(phi.numbers());
+    let mut prediction = vec![T::ZERO; phi.len() / n * m];
+    estimator.predict(&phi, &mut prediction)?;
+    let mut shape = regressors.to_vec();
+    if m > 1 {
+        shape.push(m);
+    }
+    Ok(Array { shape, elements: T::elements(prediction) })
+}

@@ -1,0 +1,156 @@
+//! A fleet from its settings.
+
+use super::streams::{like, Streams};
+use crate::number::Number;
+use crate::{configure, Description, Error, Settings, View};
+use forgetting::rates::Rate;
+use forgetting::saved::AnyEstimator;
+use forgetting::{Dynamic, Memory, Prior};
+use std::borrow::Cow;
+
+/// A number of streams.
+///
+/// # Errors
+/// [`Error::Core`] names `count` unless it is from 1.
+pub(super) fn read_count(count: i64) -> Result<usize, Error> {
+    match usize::try_from(count) {
+        Ok(streams) if streams >= 1 => Ok(streams),
+        _ => Err(forgetting::Error::value("count", count as f64, "whole numbers from 1").into()),
+    }
+}
+
+/// Makes `count` streams.
+pub(super) fn streams<T: Number>(
+    count: usize,
+    settings: &Settings<'_>,
+    forgetting_factor: Option<View<'_>>,
+) -> Result<Streams<T>, Error> {
+    check_single(settings)?;
+    let n = settings.parameters;
+    let (covariance, covariances) = split::<T>(
+        "initial_covariance",
+        settings.initial_covariance,
+        &[&[], &[n], &[n, n]],
+        &[&[count, n], &[count, n, n]],
+    )?;
+    let (theta, thetas) =
+        split::<T>("initial_theta", settings.initial_theta, &[&[n]], &[&[count, n]])?;
+    let (factor, factors) =
+        split::<T>("forgetting_factor", forgetting_factor, &[&[]], &[&[count]])?;
+    let mut fresh = configure::estimator::<T>(settings, covariance, theta)?;
+    check_functions(&fresh)?;
+    if forgetting_factor.is_some() {
+        check_factor(settings, &fresh)?;
+    }
+    if let Some(factor) = factor {
+        let factor = T::read(factor.numbers())[0];
+        fresh = like(&fresh, Some(factor), fresh.prior().clone())?;
+    }
+    let mut streams = Streams::of(fresh);
+    streams.grow(count)?;
+    if covariances.is_none() && thetas.is_none() && factors.is_none() {
+        return Ok(streams);
+    }
+    for stream in 0..count {
+        let own = |numbers| own(numbers, stream);
+        let factor = own(&factors).map(|factor| factor[0]);
+        let fresh = streams.fresh();
+        let prior = prior(fresh.prior(), own(&covariances), own(&thetas));
+        let estimator = prior.and_then(|prior| like(fresh, factor, prior));
+        streams.put(stream, estimator.map_err(|error| Error::Stream { stream, error })?)?;
+    }
+    Ok(streams)
+}
+
+/// Refuses settings that a stream cannot have.
+fn check_single(settings: &Settings<'_>) -> Result<(), Error> {
+    if (settings.rows, settings.targets) != (1, 1) {
+        return Err(Error::unsupported("a stream has one row and one target"));
+    }
+    if settings.monitor {
+        return Err(Error::unsupported("a stream of a fleet is not monitored"));
+    }
+    Ok(())
+}
+
+/// Numbers of each stream, and how many each has.
+type Each<'a, T> = Option<(Cow<'a, [T]>, usize)>;
+
+/// Tells a value for all streams from one a stream, by its shape.
+///
+/// # Errors
+/// [`Error::Shape`] for a shape that is none of them.
+fn split<'a, T: Number>(
+    name: &str,
+    value: Option<View<'a>>,
+    all: &[&[usize]],
+    each: &[&[usize]],
+) -> Result<(Option<View<'a>>, Each<'a, T>), Error> {
+    let Some(value) = value else { return Ok((None, None)) };
+    let shape = value.shape();
+    if all.contains(&shape) {
+        Ok((Some(value), None))
+    } else if each.contains(&shape) {
+        let width = shape[1..].iter().product();
+        Ok((None, Some((T::read(value.numbers()), width))))
+    } else {
+        let tuple = |shape: &&[usize]| match *shape {
+            [one] => format!("({one},)"),
+            more => {
+                format!("({})", more.iter().map(usize::to_string).collect::<Vec<_>>().join(", "))
+            }
+        };
+        let shapes: Vec<_> = all.iter().chain(each).map(tuple).collect();
+        Err(Error::shape(name, shape, format!("one of {}", shapes.join(", "))))
+    }
+}
+
+fn own<'a, T: Clone>(numbers: &'a Each<'_, T>, stream: usize) -> Option<&'a [T]> {
+    numbers.as_ref().map(|(numbers, width)| &numbers[stream * width..(stream + 1) * width])
+}
+
+/// `common` with what a stream has of its own.
+fn prior<T: Number>(
+    common: &Prior<Dynamic<T>>,
+    covariance: Option<&[T]>,
+    theta: Option<&[T]>,
+) -> Result<Prior<Dynamic<T>>, forgetting::Error> {
+    let memory = common.memory();
+    let prior = match covariance {
+        None => common.clone(),
+        Some(p) if p.len() == memory.parameters() => {
+            Prior::diagonal(memory, p)?.with_theta(common.theta())?
+        }
+        Some(p) => Prior::dense(memory, p)?.with_theta(common.theta())?,
+    };
+    match theta {
+        None => Ok(prior),
+        Some(theta) => prior.with_theta(theta),
+    }
+}
+
+/// Refuses functions of the user's: they would be called once for each stream and sample.
+pub(super) fn check_functions<T: Number>(fresh: &AnyEstimator<T>) -> Result<(), Error> {
+    if Description::of(fresh).has_function() {
+        return Err(Error::unsupported(
+            "a fleet takes no function of yours as a rule, a rate or a gate: it would be called for \
+             each stream and sample; use one RLS a stream",
+        ));
+    }
+    Ok(())
+}
+
+/// Refuses a forgetting factor beside a rule that uses none, or that has a rate.
+fn check_factor<T: Number>(settings: &Settings<'_>, fresh: &AnyEstimator<T>) -> Result<(), Error> {
+    let name = fresh.rule().about().name;
+    if !settings.forgetting_factor.is_used(name) {
+        let reason = format!("forgetting_factor is given, but the rule {name} uses none");
+        return Err(Error::unsupported(reason));
+    }
+    if fresh.rate().constant().is_none() {
+        let rate = fresh.rate().about().name;
+        let reason = format!("forgetting_factor is given twice: the rule has the rate {rate}");
+        return Err(Error::unsupported(reason));
+    }
+    Ok(())
+}

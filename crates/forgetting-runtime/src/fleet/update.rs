@@ -1,0 +1,88 @@
+//! A sample for every stream of a fleet.
+
+use super::streams::Streams;
+use crate::number::Number;
+use crate::{check_shape, Array, Elements, Error, View};
+use forgetting::fleet::{Outputs, Samples};
+use std::borrow::Cow;
+
+/// What a sample of each stream did. An output that was not asked for is none.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FleetUpdate {
+    /// y − φθ with the θ of before, (count,), in units of y; NaN where there was no sample or it
+    /// was refused
+    pub error: Option<Array>,
+    /// variance of the prediction in units of the noise variance, (count,); NaN as above
+    pub leverage: Option<Array>,
+    /// (count,) codes: 0 where the sample was used, else [`Skip::code`](crate::Skip::code) or
+    /// [`FleetUpdate::REFUSED`]
+    pub skipped: Option<Array>,
+    /// number of streams that used their sample
+    pub used: usize,
+}
+
+impl FleetUpdate {
+    /// Names of the outputs that are kept when none are named.
+    pub const DEFAULT_OUTPUTS: [&'static str; 2] = ["error", "skipped"];
+    /// Names of all outputs.
+    pub const OUTPUTS: [&'static str; 3] = ["error", "leverage", "skipped"];
+    /// The code of a stream that refused its sample.
+    pub const REFUSED: u8 = forgetting::fleet::REFUSED;
+}
+
+/// Takes a sample for each stream.
+pub(super) fn update<T: Number>(
+    streams: &mut Streams<T>,
+    (phi, y, mask): (View<'_>, View<'_>, Option<&[bool]>),
+    outputs: &[&str],
+    threads: Option<usize>,
+) -> Result<FleetUpdate, Error> {
+    let count = streams.count();
+    if let Some(name) = outputs.iter().find(|name| !FleetUpdate::OUTPUTS.contains(name)) {
+        let allowed = FleetUpdate::OUTPUTS.join(", ");
+        return Err(Error::Output { name: (*name).into(), allowed });
+    }
+    let phi = read::<T>("phi", phi, &streams.shape())?;
+    let y = read::<T>("y", y, &[count])?;
+    check_mask(mask, count)?;
+    let wanted = |name| outputs.contains(&name);
+    let mut error = wanted("error").then(|| vec![T::ZERO; count]);
+    let mut leverage = wanted("leverage").then(|| vec![T::ZERO; count]);
+    let mut skipped = wanted("skipped").then(|| vec![0; count]);
+    let results = Outputs {
+        error: error.as_deref_mut(),
+        leverage: leverage.as_deref_mut(),
+        skipped: skipped.as_deref_mut(),
+    };
+    let used = streams.update(Samples { phi: &phi, y: &y, mask }, results, threads)?;
+    Ok(FleetUpdate {
+        error: error.map(|numbers| T::array(numbers, &[count])),
+        leverage: leverage.map(|numbers| T::array(numbers, &[count])),
+        skipped: skipped.map(|codes| Array { shape: vec![count], elements: Elements::U8(codes) }),
+        used,
+    })
+}
+
+/// φθ of each stream.
+pub(super) fn predict<T: Number>(streams: &Streams<T>, phi: View<'_>) -> Result<Array, Error> {
+    let count = streams.count();
+    let phi = read::<T>("phi", phi, &streams.shape())?;
+    let mut prediction = vec![T::ZERO; count];
+    streams.predict(&phi, &mut prediction)?;
+    Ok(T::array(prediction, &[count]))
+}
+
+/// Refuses a mask that does not have one answer for each of `count` streams.
+pub(super) fn check_mask(mask: Option<&[bool]>, count: usize) -> Result<(), Error> {
+    mask.map_or(Ok(()), |mask| check_shape("mask", &[mask.len()], &[count]))
+}
+
+/// The numbers of an array of this shape.
+fn read<'a, T: Number>(
+    name: &str,
+    values: View<'a>,
+    shape: &[usize],
+) -> Result<Cow<'a, [T]>, Error> {
+    check_shape(name, values.shape(), shape)?;
+    Ok(T::read(values.numbers()))
+}

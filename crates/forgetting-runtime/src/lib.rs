@@ -1,0 +1,56 @@
+//! The run time under every interface: estimators and fleets whose types are chosen while the
+//! program runs.
+//!
+//! An interface (Python, C, a web page) passes slices of numbers, names and values, and gets back
+//! arrays, names and values: no type parameter is left. The number type, the rule, the rate, the
+//! weighting and the gate of an [`Estimator`] or a [`Fleet`] are made by name from [`Settings`];
+//! records, missing samples, threads and saved states are handled here, and every refusal is an
+//! [`Error`] whose text is the same in all languages. Whatever was refused has changed nothing.
+//!
+//! ```
+//! use forgetting_runtime::{Choice, Estimator, Settings};
+//!
+//! let rule = Choice::named("subspace").with("threshold", 1e-3);
+//! let mut estimator = Estimator::new(&Settings { rule: Some(rule), ..Settings::new(2) })?;
+//! for k in 0..100 {
+//!     let phi = [1.0, f64::from(k % 7)];
+//!     let update = estimator.update(phi[..].into(), [3.0 + 0.5 * phi[1]][..].into(), None)?;
+//!     assert!(update.skipped.is_none());
+//! }
+//! let theta = estimator.theta();
+//! assert_eq!(theta.shape, [2]);
+//! assert!((theta.elements.to_f64()[0] - 3.0).abs() < 1e-3);
+//! # Ok::<(), forgetting_runtime::Error>(())
+//! ```
+#![forbid(unsafe_code)]
+
+mod array;
+mod by_type;
+mod choice;
+mod configure;
+mod error;
+mod estimator;
+mod fleet;
+mod function;
+mod health;
+mod number;
+mod record;
+mod settings;
+mod update;
+mod window;
+
+pub use array::{Array, Elements, Numbers, View};
+pub use choice::{Choice, Description, Value};
+pub use error::{check_shape, Error, Kind};
+pub use estimator::Estimator;
+pub use fleet::{Fleet, FleetUpdate, StreamHealth};
+pub use forgetting::function::Argument;
+pub use forgetting::gates::Answer;
+pub use forgetting::{Error as CoreError, Skip};
+pub use function::{Evidence, Function};
+pub use health::Health;
+pub use number::NumberType;
+pub use record::{Missing, Run};
+pub use settings::{size, threads, ForgettingFactor, Settings};
+pub use update::{Innovation, Update};
+pub use window::InformationWindow;

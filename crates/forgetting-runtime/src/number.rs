@@ -1,0 +1,92 @@
+//! The number types, and how an interface's numbers become theirs.
+
+use crate::{Array, Elements, Error, Numbers};
+use bytemuck::{TransparentWrapper, TransparentWrapperAlloc};
+use forgetting::{Kernels, Real};
+use forgetting_cpu::Fused;
+use std::borrow::Cow;
+
+/// The type of an estimator's numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NumberType {
+    /// 64 bits
+    F64,
+    /// 32 bits
+    F32,
+}
+
+impl NumberType {
+    /// The name: `float64` or `float32`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::F64 => "float64",
+            Self::F32 => "float32",
+        }
+    }
+
+    /// The type of this name.
+    ///
+    /// # Errors
+    /// [`Error::Word`] names `dtype`.
+    pub fn named(name: &str) -> Result<Self, Error> {
+        match name {
+            "float64" => Ok(Self::F64),
+            "float32" => Ok(Self::F32),
+            _ => Err(Error::word("dtype", name, &[Self::F64.name(), Self::F32.name()])),
+        }
+    }
+}
+
+/// A number type to compute with: one of [`NumberType`] in the arithmetic of a machine.
+pub(crate) trait Number: Kernels {
+    /// An interface's numbers as numbers of this type, converted only if they are of another.
+    fn read(numbers: Numbers<'_>) -> Cow<'_, [Self]>;
+
+    /// Numbers of this type as an interface's.
+    fn elements(numbers: Vec<Self>) -> Elements;
+
+    /// The same in this shape.
+    fn array(numbers: Vec<Self>, shape: &[usize]) -> Array {
+        Array { shape: shape.to_vec(), elements: Self::elements(numbers) }
+    }
+}
+
+#[cold]
+fn convert<T: Real, X: Real>(numbers: &[X]) -> Cow<'static, [T]> {
+    numbers.iter().map(|x| T::from_f64(x.to_f64())).collect()
+}
+
+macro_rules! number {
+    ($Type:ident, $float:ident; $Other:ident) => {
+        impl Number for $float {
+            #[inline(always)]
+            fn read(numbers: Numbers<'_>) -> Cow<'_, [Self]> {
+                match numbers {
+                    Numbers::$Type(numbers) => Cow::Borrowed(numbers),
+                    Numbers::$Other(numbers) => convert(numbers),
+                }
+            }
+
+            fn elements(numbers: Vec<Self>) -> Elements {
+                Elements::$Type(numbers)
+            }
+        }
+
+        impl Number for Fused<$float> {
+            #[inline(always)]
+            fn read(numbers: Numbers<'_>) -> Cow<'_, [Self]> {
+                match numbers {
+                    Numbers::$Type(numbers) => Cow::Borrowed(Self::wrap_slice(numbers)),
+                    Numbers::$Other(numbers) => convert(numbers),
+                }
+            }
+
+            fn elements(numbers: Vec<Self>) -> Elements {
+                Elements::$Type(Self::peel_vec(numbers))
+            }
+        }
+    };
+}
+number!(F64, f64; F32);
+number!(F32, f32; F64);

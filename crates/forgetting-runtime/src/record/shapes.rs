@@ -1,0 +1,62 @@
+//! The shapes of a record.
+
+use super::RecordNoise;
+use crate::{Error, View};
+use forgetting::Memory;
+
+/// Sizes of a record.
+#[derive(Clone, Copy)]
+pub(super) struct Sizes {
+    pub samples: usize,
+    pub parameters: usize,
+    pub rows: usize,
+    pub targets: usize,
+}
+
+impl Sizes {
+    /// Those of the record `phi`, `y` for an estimator of these sizes.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] names what does not fit.
+    pub fn of<M: Memory>(memory: M, phi: &View<'_>, y: &View<'_>) -> Result<Self, Error> {
+        let (n, p, m) = (memory.parameters(), memory.rows(), memory.targets());
+        let samples = phi.shape().first().copied().unwrap_or(0);
+        check("phi", phi.shape(), samples, [p, n])?;
+        check("y", y.shape(), samples, [p, m])?;
+        Ok(Self { samples, parameters: n, rows: p, targets: m })
+    }
+}
+
+/// Refuses a shape other than `samples` times `sample`, dimensions of 1 left out or not.
+fn check(name: &str, shape: &[usize], samples: usize, sample: [usize; 2]) -> Result<(), Error> {
+    let longer = |sizes: &[usize]| sizes.iter().copied().filter(|&d| d != 1).collect::<Vec<_>>();
+    let fits = shape.first() == Some(&samples)
+        && longer(&shape[1..]) == longer(&sample)
+        && shape.len() <= 3;
+    if fits {
+        return Ok(());
+    }
+    let [p, n] = sample;
+    Err(Error::shape(name, shape, format!("({samples}, {p}, {n}) or less ones")))
+}
+
+/// Γ by its shape.
+///
+/// # Errors
+/// [`Error::Shape`] names `gamma`.
+pub(super) fn read_noise<'a, T: Copy>(
+    shape: &[usize],
+    gamma: &'a [T],
+    Sizes { samples, rows: p, .. }: Sizes,
+) -> Result<RecordNoise<'a, T>, Error> {
+    match *shape {
+        [] => Ok(RecordNoise::Scalar(gamma[0])),
+        [t] if t == samples => Ok(RecordNoise::Scalars(gamma)),
+        [a, b] if (a, b) == (p, p) => Ok(RecordNoise::Full(gamma)),
+        [t, a, b] if (t, a, b) == (samples, p, p) => Ok(RecordNoise::Fulls(gamma)),
+        _ => {
+            let expected = format!("(), ({p}, {p}), ({samples},) or ({samples}, {p}, {p})");
+            Err(Error::shape("gamma", shape, expected))
+        }
+    }
+}

@@ -1,0 +1,121 @@
+//! One sample in one call.
+
+use crate::number::Number;
+use crate::{Answer, Array, Elements, Numbers, Skip};
+use forgetting::saved::AnyEstimator;
+use forgetting::{Error, Memory, Noise, Real};
+
+/// One number a row and target of a sample.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Innovation {
+    /// of one row and one target
+    Scalar(f64),
+    /// of several
+    Array {
+        /// the numbers, row by row
+        elements: Vec<f64>,
+        /// p
+        rows: usize,
+        /// m
+        targets: usize,
+    },
+}
+
+impl Innovation {
+    #[inline]
+    pub(crate) fn new<T: Real>(elements: &[T], rows: usize, targets: usize) -> Self {
+        match elements {
+            [element] => Self::Scalar(element.to_f64()),
+            elements => Self::Array {
+                elements: elements.iter().map(|x| x.to_f64()).collect(),
+                rows,
+                targets,
+            },
+        }
+    }
+
+    /// The numbers in their shape: (), (rows,) or (rows, targets).
+    #[must_use]
+    pub fn array(&self) -> Array {
+        let (elements, shape) = match self {
+            Self::Scalar(element) => (vec![*element], vec![]),
+            Self::Array { elements, rows, targets: 1 } => (elements.clone(), vec![*rows]),
+            Self::Array { elements, rows, targets } => (elements.clone(), vec![*rows, *targets]),
+        };
+        Array { shape, elements: Elements::F64(elements) }
+    }
+}
+
+/// What one sample did.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Update {
+    /// y − φθ with the θ of before, in units of y
+    pub error: Innovation,
+    /// L⁻¹(y − φθ) with L Lᵀ = Γ + φP̄φᵀ, L lower triangular; see [`forgetting::Update::whiten`]
+    pub whitened_innovation: Innovation,
+    /// tr φ̄P̄φ̄ᵀ: the variance of the prediction in units of the noise variance
+    pub leverage: f64,
+    /// the forgetting factor used, in (0, 1]
+    pub forgetting_factor: f64,
+    /// number of directions that lost information
+    pub rank: usize,
+    /// why the sample was left out, if it was
+    pub skipped: Option<Skip>,
+    /// what the gate said
+    pub gate: Answer,
+    /// whether P has wound up
+    pub windup: bool,
+}
+
+impl Update {
+    /// From the core's; several rows must be whitened.
+    #[inline]
+    fn new<T: Real>(
+        update: &forgetting::Update<'_, T>,
+        rows: usize,
+        targets: usize,
+    ) -> Result<Self, Error> {
+        let whitened_innovation = if update.error.len() == 1 {
+            let mut whitened = [T::ZERO];
+            update.whiten(&mut whitened)?;
+            Innovation::Scalar(whitened[0].to_f64())
+        } else {
+            let mut whitened = vec![T::ZERO; update.error.len()];
+            update.whiten(&mut whitened)?;
+            Innovation::new(&whitened, rows, targets)
+        };
+        Ok(Self {
+            error: Innovation::new(update.error, rows, targets),
+            whitened_innovation,
+            leverage: update.leverage.to_f64(),
+            forgetting_factor: update.forgetting_factor.to_f64(),
+            rank: update.rank,
+            skipped: update.skipped,
+            gate: update.gate,
+            windup: update.windup,
+        })
+    }
+}
+
+/// Updates `estimator` with one sample; Γ is 1, a number or p x p numbers.
+#[inline]
+pub(crate) fn update<T: Number>(
+    estimator: &mut AnyEstimator<T>,
+    phi: Numbers<'_>,
+    y: Numbers<'_>,
+    gamma: Option<Numbers<'_>>,
+) -> Result<Update, Error> {
+    let memory = estimator.prior().memory();
+    let (rows, targets) = (memory.rows(), memory.targets());
+    if rows > 1 {
+        estimator.keep_innovations(true);
+    }
+    let gamma = gamma.map(T::read);
+    let noise = match gamma.as_deref() {
+        None => Noise::Unit,
+        Some([scalar]) => Noise::Scalar(*scalar),
+        Some(full) => Noise::Full(full),
+    };
+    let update = estimator.update_with_noise(&T::read(phi), &T::read(y), noise)?;
+    Update::new(&update, rows, targets)
+}

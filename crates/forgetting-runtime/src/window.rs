@@ -1,0 +1,60 @@
+//! The information of the last samples.
+
+use crate::number::Number;
+use crate::{size, Array, Elements, Error, Numbers};
+
+/// The sum of φᵀφ over the last samples, in O(n²) a sample.
+#[derive(Clone, Debug)]
+pub struct InformationWindow {
+    window: forgetting::InformationWindow<f64>,
+    parameters: usize,
+}
+
+impl InformationWindow {
+    /// Of n = `parameters`, over `window` samples of `rows` rows.
+    ///
+    /// # Errors
+    /// [`Error::Core`] names the size that is out of range.
+    pub fn new(parameters: i64, window: i64, rows: i64) -> Result<Self, Error> {
+        let parameters = size("parameters", parameters)?;
+        let (window, rows) = (size("window", window)?, size("rows", rows)?);
+        let window = forgetting::InformationWindow::new(parameters, rows, window)?;
+        Ok(Self { window, parameters })
+    }
+
+    /// Takes one sample, whitened: rows x n numbers.
+    ///
+    /// # Errors
+    /// [`Error::Core`] names `phi`; nothing has changed.
+    pub fn add(&mut self, phi: Numbers<'_>) -> Result<(), Error> {
+        Ok(self.window.add(&f64::read(phi))?)
+    }
+
+    /// The sum, (n, n), in units of φ².
+    #[must_use]
+    pub fn information(&self) -> Array {
+        let n = self.parameters;
+        let mut information = vec![0.0; n * n];
+        let written = self.window.information(&mut information);
+        debug_assert!(written.is_ok(), "there is room for n x n numbers");
+        Array { shape: vec![n, n], elements: Elements::F64(information) }
+    }
+
+    /// The size below which an eigenvalue of the sum cannot be told from rounding.
+    #[must_use]
+    pub fn noise(&self) -> f64 {
+        self.window.noise()
+    }
+
+    /// Samples taken so far.
+    #[must_use]
+    pub fn samples(&self) -> u64 {
+        self.window.samples()
+    }
+
+    /// Samples in a full window.
+    #[must_use]
+    pub fn window(&self) -> usize {
+        self.window.window()
+    }
+}
