@@ -14,7 +14,7 @@ use pyo3::types::{PyBytes, PyTuple, PyType};
 /// Many independent streams of the same number of parameters and the same rule, updated together.
 ///
 /// Each stream is an `RLS` of one row and one target of its own; a fleet takes a sample of each
-/// in one call. What a stream cannot use is told in the result and leaves that stream alone, bit
+/// in one call. What a stream cannot use is reported and leaves that stream alone, bit
 /// for bit: one bad sample does not stop the others.
 ///
 /// Parameters

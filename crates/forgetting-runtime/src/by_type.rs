@@ -4,6 +4,13 @@ use crate::number::Number;
 use crate::NumberType;
 use forgetting_cpu::Fused;
 
+/// Plain arithmetic, for a machine without fused multiply-add. Every aarch64 has it: nothing but
+/// the fused types is compiled there.
+#[cfg(not(target_arch = "aarch64"))]
+pub(crate) type Plain<F> = F;
+#[cfg(target_arch = "aarch64")]
+pub(crate) type Plain<F> = Fused<F>;
+
 /// A type with the number type left open, such as that of estimators.
 pub(crate) trait Family {
     /// The type for numbers `T`.
@@ -12,23 +19,23 @@ pub(crate) trait Family {
 
 /// What a family makes of one of the number types.
 pub(crate) enum ByType<F: Family> {
-    F64(Box<F::Of<f64>>),
-    F32(Box<F::Of<f32>>),
-    // on a machine with fused multiply-add
+    F64(Box<F::Of<Plain<f64>>>),
+    F32(Box<F::Of<Plain<f32>>>),
     FusedF64(Box<F::Of<Fused<f64>>>),
     FusedF32(Box<F::Of<Fused<f32>>>),
 }
 
 /// Evaluates an expression for the value of whichever number type it is.
 macro_rules! each {
-    ($by_type:expr, $value:ident => $expression:expr) => {
+    ($by_type:expr, $value:ident => $expression:expr) => {{
+        use $crate::by_type::ByType;
         match $by_type {
-            $crate::by_type::ByType::F64($value) => $expression,
-            $crate::by_type::ByType::F32($value) => $expression,
-            $crate::by_type::ByType::FusedF64($value) => $expression,
-            $crate::by_type::ByType::FusedF32($value) => $expression,
+            ByType::F64($value) => $expression,
+            ByType::F32($value) => $expression,
+            ByType::FusedF64($value) => $expression,
+            ByType::FusedF32($value) => $expression,
         }
-    };
+    }};
 }
 
 /// Evaluates an expression for two values of the same number type; nothing if their types differ.
@@ -48,48 +55,48 @@ macro_rules! both {
 /// The value that an expression makes for the number type `$T`, in the arithmetic that is fast on
 /// this machine.
 macro_rules! make {
-    ($number_type:expr, $T:ident => $expression:expr) => {
-        $crate::by_type::make!(@ $number_type, $T => $expression;
-            (F64, false) F64 f64,
-            (F32, false) F32 f32,
-            (F64, true) FusedF64 ::forgetting_cpu::Fused<f64>,
-            (F32, true) FusedF32 ::forgetting_cpu::Fused<f32>)
-    };
-    (@ $number_type:expr, $T:ident => $expression:expr;
-        $(($Type:ident, $fused:literal) $Variant:ident $type:ty),*) => {
-        match ($number_type, $crate::by_type::is_fused()) {
-            $(($crate::NumberType::$Type, $fused) => {
-                type $T = $type;
-                $crate::by_type::ByType::$Variant(Box::new($expression))
-            })*
+    ($number_type:expr, $T:ident => $expression:expr) => {{
+        use forgetting_cpu::Fused;
+        use $crate::by_type::{has_fused, ByType, Plain};
+        use $crate::NumberType;
+        match ($number_type, has_fused()) {
+            (NumberType::F64, false) => {
+                type $T = Plain<f64>;
+                ByType::F64(Box::new($expression))
+            }
+            (NumberType::F32, false) => {
+                type $T = Plain<f32>;
+                ByType::F32(Box::new($expression))
+            }
+            (NumberType::F64, true) => {
+                type $T = Fused<f64>;
+                ByType::FusedF64(Box::new($expression))
+            }
+            (NumberType::F32, true) => {
+                type $T = Fused<f32>;
+                ByType::FusedF32(Box::new($expression))
+            }
         }
-    };
+    }};
 }
 
 /// The values of one family as those of another.
 macro_rules! map {
-    ($by_type:expr, $value:ident => $expression:expr) => {
+    ($by_type:expr, $value:ident => $expression:expr) => {{
+        use $crate::by_type::ByType;
         match $by_type {
-            $crate::by_type::ByType::F64($value) => {
-                $crate::by_type::ByType::F64(Box::new($expression))
-            }
-            $crate::by_type::ByType::F32($value) => {
-                $crate::by_type::ByType::F32(Box::new($expression))
-            }
-            $crate::by_type::ByType::FusedF64($value) => {
-                $crate::by_type::ByType::FusedF64(Box::new($expression))
-            }
-            $crate::by_type::ByType::FusedF32($value) => {
-                $crate::by_type::ByType::FusedF32(Box::new($expression))
-            }
+            ByType::F64($value) => ByType::F64(Box::new($expression)),
+            ByType::F32($value) => ByType::F32(Box::new($expression)),
+            ByType::FusedF64($value) => ByType::FusedF64(Box::new($expression)),
+            ByType::FusedF32($value) => ByType::FusedF32(Box::new($expression)),
         }
-    };
+    }};
 }
 
 pub(crate) use {both, each, make, map};
 
 /// Whether this machine has fused multiply-add.
-pub(crate) fn is_fused() -> bool {
+pub(crate) fn has_fused() -> bool {
     forgetting_cpu::level() >= forgetting_cpu::Level::Fused
 }
 

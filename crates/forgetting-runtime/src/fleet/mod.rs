@@ -29,7 +29,7 @@ impl Family for Fleets {
 /// Many independent streams of the same number of parameters and the same rule, updated together.
 ///
 /// Each stream is an [`Estimator`] of one row and one target of its own; a fleet takes a sample of
-/// each in one call. What a stream cannot use is told in the result and leaves that stream alone,
+/// each in one call. What a stream cannot use is reported and leaves that stream alone,
 /// bit for bit: one bad sample does not stop the others.
 #[derive(Clone)]
 pub struct Fleet {
