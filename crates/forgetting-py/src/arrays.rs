@@ -1,7 +1,7 @@
 //! NumPy arrays as slices of numbers, without a copy where type and layout allow it.
 
 use crate::errors::{invalid, raise};
-use forgetting_runtime::{Array, Elements, NumberType, Numbers, View};
+use forgetting_runtime::{Array, Elements, Innovation, NumberType, Numbers, View};
 use numpy::{
     Element, IxDyn, PyArray, PyArrayDescr, PyArrayDyn, PyArrayMethods, PyUntypedArray,
     PyUntypedArrayMethods,
@@ -61,7 +61,7 @@ impl<'a, 'py> Input<'a, 'py> {
     ///
     /// # Errors
     /// `InvalidInput` names the parameter when its values are not numbers.
-    #[inline]
+    #[inline(always)]
     pub fn read(
         name: &str,
         values: &'a Bound<'py, PyAny>,
@@ -74,16 +74,26 @@ impl<'a, 'py> Input<'a, 'py> {
     }
 
     /// The same in an array of its own, if `copy` says so.
+    #[inline(always)]
     pub fn read_or_copy(
         name: &str,
         values: &'a Bound<'py, PyAny>,
         number_type: NumberType,
         copy: bool,
     ) -> PyResult<Self> {
-        match Self::read(name, values, number_type)? {
-            Self::F64(source) if copy => source.copy().map(Self::F64),
-            Self::F32(source) if copy => source.copy().map(Self::F32),
-            input => Ok(input),
+        let input = Self::read(name, values, number_type)?;
+        if copy {
+            input.copy()
+        } else {
+            Ok(input)
+        }
+    }
+
+    #[cold]
+    fn copy(self) -> PyResult<Self> {
+        match self {
+            Self::F64(source) => source.copy().map(Self::F64),
+            Self::F32(source) => source.copy().map(Self::F32),
         }
     }
 
@@ -91,7 +101,7 @@ impl<'a, 'py> Input<'a, 'py> {
     ///
     /// The interpreter is held by whoever has an `Input`. While the slice lives, no Python code
     /// may run that could change the array; where code of the user's may, it gets a copy.
-    #[inline]
+    #[inline(always)]
     pub fn numbers(&self) -> PyResult<Numbers<'_>> {
         Ok(match self {
             Self::F64(source) => Numbers::F64(source.slice()?),
@@ -114,7 +124,7 @@ impl<'a, 'py> Input<'a, 'py> {
 }
 
 impl<'a, 'py, T: Number> Source<'a, 'py, T> {
-    #[inline]
+    #[inline(always)]
     fn read(name: &str, values: &'a Bound<'py, PyAny>) -> PyResult<Self> {
         if let Some(array) = native(values) {
             return Ok(Self::Given(array));
@@ -135,7 +145,7 @@ impl<'a, 'py, T: Number> Source<'a, 'py, T> {
         Ok(Self::Made(copy.cast_into::<PyArray<T, IxDyn>>()?))
     }
 
-    #[inline]
+    #[inline(always)]
     fn slice(&self) -> PyResult<&[T]> {
         let array = match self {
             Self::Given(array) => array,
@@ -178,7 +188,7 @@ fn contiguous<'py, T: Number>(
 }
 
 /// `values` if it is an array of `T` as NumPy itself makes them, in C order: a few comparisons tell.
-#[inline]
+#[inline(always)]
 fn native<'a, 'py, T: Number>(
     values: &'a Bound<'py, PyAny>,
 ) -> Option<&'a Bound<'py, PyArrayDyn<T>>> {
@@ -192,7 +202,7 @@ fn native<'a, 'py, T: Number>(
 }
 
 /// Whether the numbers lie in C order where a slice may.
-#[inline]
+#[inline(always)]
 fn is_slice<T: Element>(array: &Bound<'_, PyArrayDyn<T>>) -> bool {
     array.is_c_contiguous() && array.data().is_aligned()
 }
@@ -214,10 +224,19 @@ pub fn optional(py: Python<'_>, array: Option<Array>) -> PyResult<Option<Py<PyAn
     array.map(|array| output(py, array).map(Bound::unbind)).transpose()
 }
 
+/// The numbers of a sample for Python; a float if there is one only.
+pub fn innovation<'py>(py: Python<'py>, innovation: &Innovation) -> PyResult<Bound<'py, PyAny>> {
+    match innovation {
+        Innovation::Scalar(number) => Ok(PyFloat::new(py, *number).into_any()),
+        Innovation::Array { .. } => output(py, innovation.array()),
+    }
+}
+
 /// An array for Python; a float if it has no dimension.
 pub fn output_or_float(py: Python<'_>, array: Array) -> PyResult<Bound<'_, PyAny>> {
-    match (array.shape.as_slice(), array.elements.to_f64().as_slice()) {
-        ([], &[number]) => Ok(PyFloat::new(py, number).into_any()),
+    match (array.shape.as_slice(), &array.elements) {
+        ([], Elements::F64(number)) => Ok(PyFloat::new(py, number[0]).into_any()),
+        ([], Elements::F32(number)) => Ok(PyFloat::new(py, number[0].into()).into_any()),
         _ => output(py, array),
     }
 }

@@ -1,6 +1,6 @@
 //! Functions of the user's: Python callables that are called in the middle of a sample.
 
-use crate::arrays::{output, output_or_float, Input};
+use crate::arrays::{innovation, output, Input};
 use crate::errors::{invalid, keep_exception};
 use forgetting_runtime::{
     Answer, Argument, Array, CoreError, Elements, Function, NumberType, Numbers,
@@ -35,7 +35,7 @@ pub struct Evidence(forgetting_runtime::Evidence);
 impl Evidence {
     #[getter]
     fn error<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        output_or_float(py, self.0.error.array())
+        innovation(py, &self.0.error)
     }
 
     #[getter]

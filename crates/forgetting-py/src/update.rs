@@ -1,6 +1,6 @@
 //! What one sample told, for Python.
 
-use crate::arrays::output_or_float;
+use crate::arrays::innovation;
 use pyo3::prelude::*;
 
 /// What one sample told: returned by `RLS.update`.
@@ -32,12 +32,12 @@ pub struct Update(pub forgetting_runtime::Update);
 impl Update {
     #[getter]
     fn error<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        output_or_float(py, self.0.error.array())
+        innovation(py, &self.0.error)
     }
 
     #[getter]
     fn whitened_innovation<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        output_or_float(py, self.0.whitened_innovation.array())
+        innovation(py, &self.0.whitened_innovation)
     }
 
     #[getter]

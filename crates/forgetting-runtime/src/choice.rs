@@ -3,6 +3,8 @@
 mod describe;
 mod make;
 
+pub(crate) use describe::has_function;
+
 use crate::{Error, Function};
 use std::sync::Arc;
 

@@ -1,6 +1,7 @@
 //! An estimator of any type.
 
 use crate::by_type::{each, make, ByType, Family};
+use crate::choice::has_function;
 use crate::number::Number;
 use crate::{configure, record, update};
 use crate::{Array, Description, Error, Health, Missing, NumberType, Numbers, Run, Settings};
@@ -45,7 +46,7 @@ impl Estimator {
     }
 
     pub(crate) fn of(typed: ByType<Estimators>) -> Self {
-        let calls_function = each!(&typed, e => Description::of(e)).has_function();
+        let calls_function = each!(&typed, e => has_function(e));
         Self { typed, calls_function }
     }
 

@@ -30,11 +30,6 @@ impl Description {
             }),
         }
     }
-
-    /// Whether a function of the user's is part of it.
-    pub(crate) fn has_function(&self) -> bool {
-        [&self.rule, &self.rate, &self.weighting, &self.gate].into_iter().any(Choice::has_function)
-    }
 }
 
 impl Choice {
@@ -49,14 +44,6 @@ impl Choice {
             choice.parameters.extend(value.map(|value| (name.to_owned(), value)));
         });
         choice
-    }
-
-    fn has_function(&self) -> bool {
-        self.parameters.iter().any(|(_, value)| match value {
-            Value::Function(_) => true,
-            Value::Choice(rule) => rule.has_function(),
-            _ => false,
-        })
     }
 }
 
@@ -82,5 +69,27 @@ impl Value {
     #[must_use]
     pub fn default_of(parameter: &parameter::Parameter) -> Option<Self> {
         parameter.default.and_then(Self::of::<f64>)
+    }
+}
+
+/// Whether a function of the user's is part of `estimator`.
+pub(crate) fn has_function<T: Number>(estimator: &AnyEstimator<T>) -> bool {
+    let mut found = false;
+    let mut look = |_: &'static str, value: parameter::Value<'_>| found |= is_function(value);
+    estimator.rule().describe(&mut look);
+    estimator.rate().describe(&mut look);
+    estimator.gate().describe(&mut look);
+    found
+}
+
+fn is_function(value: parameter::Value<'_>) -> bool {
+    match value {
+        parameter::Value::Function(_) => true,
+        parameter::Value::Choice { values, .. } => {
+            let mut found = false;
+            values.each(&mut |_, value| found |= is_function(value));
+            found
+        }
+        _ => false,
     }
 }

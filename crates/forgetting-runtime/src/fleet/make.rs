@@ -1,8 +1,9 @@
 //! A fleet from its settings.
 
 use super::streams::{like, Streams};
+use crate::choice::has_function;
 use crate::number::Number;
-use crate::{configure, Description, Error, Settings, View};
+use crate::{configure, Error, Settings, View};
 use forgetting::rates::Rate;
 use forgetting::saved::AnyEstimator;
 use forgetting::{Dynamic, Memory, Prior};
@@ -131,7 +132,7 @@ fn prior<T: Number>(
 
 /// Refuses functions of the user's: they would be called once for each stream and sample.
 pub(super) fn check_functions<T: Number>(fresh: &AnyEstimator<T>) -> Result<(), Error> {
-    if Description::of(fresh).has_function() {
+    if has_function(fresh) {
         return Err(Error::unsupported(
             "a fleet takes no function of yours as a rule, a rate or a gate: it would be called for \
              each stream and sample; use one RLS a stream",
