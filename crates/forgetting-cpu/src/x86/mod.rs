@@ -70,7 +70,11 @@ impl Vector<Fused<f64>> for Wide<__m512d> {
     }
     #[inline(always)]
     fn sums<const C: usize>(vectors: [Self; C]) -> [Fused<f64>; C] {
-        sums(vectors.map(Self::halves), Fused(0.0))
+        let mut halves = [vectors[0].halves(); C];
+        for c in 1..C {
+            halves[c] = vectors[c].halves();
+        }
+        sums(halves, Fused(0.0))
     }
 }
 
@@ -119,7 +123,11 @@ impl Vector<Fused<f32>> for Wide<__m512> {
     }
     #[inline(always)]
     fn sums<const C: usize>(vectors: [Self; C]) -> [Fused<f32>; C] {
-        sums(vectors.map(Self::halves), Fused(0.0))
+        let mut halves = [vectors[0].halves(); C];
+        for c in 1..C {
+            halves[c] = vectors[c].halves();
+        }
+        sums(halves, Fused(0.0))
     }
 }
 

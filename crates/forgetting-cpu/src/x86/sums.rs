@@ -63,7 +63,9 @@ impl Sum<Fused<f64>> for Pair<__m256d> {
     fn four(vectors: &[Self; 4]) -> [Fused<f64>; 4] {
         let mut sums = [Fused(0.0); 4];
         unsafe {
-            let [a, b, c, d] = vectors.map(|Pair(low, high)| _mm256_add_pd(low, high));
+            let [a, b, c, d] = *vectors;
+            let (a, b) = (_mm256_add_pd(a.0, a.1), _mm256_add_pd(b.0, b.1));
+            let (c, d) = (_mm256_add_pd(c.0, c.1), _mm256_add_pd(d.0, d.1));
             let (ab, cd) = (_mm256_hadd_pd(a, b), _mm256_hadd_pd(c, d));
             let low = _mm256_permute2f128_pd::<0x20>(ab, cd);
             let high = _mm256_permute2f128_pd::<0x31>(ab, cd);
@@ -89,7 +91,9 @@ impl Sum<Fused<f32>> for Pair<__m256> {
     fn four(vectors: &[Self; 4]) -> [Fused<f32>; 4] {
         let mut sums = [Fused(0.0); 4];
         unsafe {
-            let [a, b, c, d] = vectors.map(|Pair(low, high)| _mm256_add_ps(low, high));
+            let [a, b, c, d] = *vectors;
+            let (a, b) = (_mm256_add_ps(a.0, a.1), _mm256_add_ps(b.0, b.1));
+            let (c, d) = (_mm256_add_ps(c.0, c.1), _mm256_add_ps(d.0, d.1));
             // four lanes of a or c in the lower half, of b or d in the upper one
             let ab = _mm256_add_ps(
                 _mm256_permute2f128_ps::<0x20>(a, b),

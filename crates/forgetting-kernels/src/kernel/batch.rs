@@ -84,7 +84,10 @@ impl<'a, T: Real> Room<'a, T> {
         for (b, (d, changes)) in self.d.iter_mut().zip(&mut *self.changes).enumerate() {
             if done {
                 put_eight(diagonal, b, d);
-                let turns = changes.each_ref().map(turn);
+                let mut turns = [turn(&changes[0]); BATCH];
+                for l in 1..BATCH {
+                    turns[l] = turn(&changes[l]);
+                }
                 turn_columns::<T, V, _, GROUP, BATCH>((block_mut(columns, b), b), self.k, &turns);
             }
             if next {

@@ -110,7 +110,10 @@ pub fn above_floor<T: Real, E: Eight<T>>(less_least: E) -> bool {
 /// times the square of that length. So the column becomes √(D/floor) of what it is.
 #[inline(always)]
 pub fn settle<T: Real>(block: &mut [Tile<T>], (diagonal, b): (&mut [T], usize), d: &PerColumn<T>) {
-    let least = d.iter().fold(T::CEILING, |least, &d| least.min(d));
+    let mut least = T::CEILING;
+    for c in 0..BLOCK {
+        least = least.min(d[c]);
+    }
     if least >= T::FLOOR {
         put_eight(diagonal, b, d);
     } else {
@@ -141,7 +144,7 @@ pub fn scale_and_measure<T: Real, V: Vector<T>, const GROUP: usize>(
     f: &[T],
     k: &mut [T],
 ) -> Chain<V::Eight> {
-    let (f, mut k, blocks) = (Long::new(f), [LongMut::new(k)], diagonal.len().div_ceil(BLOCK));
+    let (f, mut k, blocks) = (Long::new(f), LongMut::new(k), diagonal.len().div_ceil(BLOCK));
     let (mut chain, growth) = (Chain::start(), V::Eight::splat(growth));
     let mut ahead = dots::<T, V, GROUP>(block(columns, 0), &f);
     for b in 0..blocks {
@@ -157,6 +160,6 @@ pub fn scale_and_measure<T: Real, V: Vector<T>, const GROUP: usize>(
         turn_columns::<T, V, _, GROUP, 1>((block, b), &mut k, &[turn]);
         settle(block, (diagonal, b), &d.numbers());
     }
-    k.into_iter().for_each(LongMut::finish);
+    k.finish();
     chain
 }

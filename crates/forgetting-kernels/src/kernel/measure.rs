@@ -182,7 +182,10 @@ fn along_many<T: Real, V: Vector<T>, const GROUP: usize>(
     let (gain, scratch) = place.scratch.split_at_mut(n.div_ceil(T::ROWS) * T::ROWS);
     let mut room = Room::<T, 1, 2>::of(scratch, n);
     for (t, [to]) in room.f.iter_mut().enumerate() {
-        *to = full.get(t).copied().unwrap_or_else(|| T::chunk(rest));
+        *to = match full.get(t) {
+            Some(chunk) => *chunk,
+            None => T::chunk(rest),
+        };
     }
     room.look::<V, GROUP>(place.columns, place.diagonal);
     let information = room.information::<V::Eight, 0>();

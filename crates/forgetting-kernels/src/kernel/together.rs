@@ -58,21 +58,28 @@ pub fn correct<'a, T: Real, V: Vector<T>, const S: usize>(
     gain: impl Fn(usize, usize) -> &'a T::Chunk,
     thetas: &mut [T],
 ) {
-    let (n, steps) = (theta.len(), steps.map(V::splat));
+    let (n, mut factors) = (theta.len(), [V::splat(T::ZERO); S]);
+    for l in 0..S {
+        factors[l] = V::splat(steps[l]);
+    }
     let (chunks, rest) = T::chunks_mut(theta);
     let mut last = T::chunk(rest);
     for t in 0..n.div_ceil(T::ROWS) {
         let chunk = chunks.get_mut(t).unwrap_or(&mut last);
         let mut now = V::load(chunk);
         for l in 0..S {
-            now = steps[l].mul_add(V::load(gain(l, t)), now);
+            now = factors[l].mul_add(V::load(gain(l, t)), now);
             if !thetas.is_empty() {
                 now.store(chunk);
                 let after = &mut thetas[l * n + t * T::ROWS..(l + 1) * n];
-                after.iter_mut().zip(chunk.as_ref()).for_each(|(to, &x)| *to = x);
+                for (to, &x) in after.iter_mut().zip(chunk.as_ref()) {
+                    *to = x;
+                }
             }
         }
         now.store(chunk);
     }
-    rest.iter_mut().zip(last.as_ref()).for_each(|(to, &x)| *to = x);
+    for (to, &x) in rest.iter_mut().zip(last.as_ref()) {
+        *to = x;
+    }
 }

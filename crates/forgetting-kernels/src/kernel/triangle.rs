@@ -134,7 +134,10 @@ impl<T: Real> Kernel<T> for Solve<'_, T> {
         for b in (0..blocks).rev() {
             let block = block(columns, b);
             let solved = solve_triangle(block, b, x.eight(b));
-            let factors = solved.map(|x| -x);
+            let mut factors = solved;
+            for c in 0..BLOCK {
+                factors[c] = -factors[c];
+            }
             add_columns::<T, V>(block, &mut x, &factors);
             *x.eight(b) = solved;
         }

@@ -3,7 +3,6 @@
 use crate::number::eight::Eight;
 use crate::number::lane::{Lane, One};
 use crate::number::Real;
-use core::array;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A chunk of numbers ([`Real::Chunk`]) in vector registers.
@@ -98,11 +97,23 @@ macro_rules! lane_by_lane {
 }
 lane_by_lane! { Add add; Sub sub; Mul mul; Div div; }
 
+/// What is done to each lane `i`, written where the closure of a `map` would be: that is compiled
+/// without the vector instructions.
+macro_rules! each {
+    ($L:ident, $i:ident: $first:expr, $of_each:expr) => {{
+        let mut lanes = [$first; $L];
+        for $i in 0..$L {
+            lanes[$i] = $of_each;
+        }
+        lanes
+    }};
+}
+
 impl<T: Real, const L: usize> Neg for Lanes<T, L> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Self(self.0.map(Neg::neg))
+        Self(each!(L, i: T::ZERO, -self.0[i]))
     }
 }
 
@@ -114,47 +125,48 @@ impl<T: Real, const L: usize> Lane<T> for Lanes<T, L> {
         Self([x; L])
     }
     #[inline(always)]
-    fn mul_add(mut self, factor: Self, term: Self) -> Self {
-        for lane in 0..L {
-            self.0[lane] = Real::mul_add(self.0[lane], factor.0[lane], term.0[lane]);
-        }
-        self
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        Self(each!(L, i: T::ZERO, Real::mul_add(self.0[i], factor.0[i], term.0[i])))
     }
     #[inline(always)]
     fn max(self, other: Self) -> Self {
-        Self(array::from_fn(|lane| Real::max(self.0[lane], other.0[lane])))
+        Self(each!(L, i: T::ZERO, Real::max(self.0[i], other.0[i])))
     }
     #[inline(always)]
     fn min(self, other: Self) -> Self {
-        Self(array::from_fn(|lane| Real::min(self.0[lane], other.0[lane])))
+        Self(each!(L, i: T::ZERO, Real::min(self.0[i], other.0[i])))
     }
     #[inline(always)]
     fn abs(self) -> Self {
-        Self(self.0.map(Real::abs))
+        Self(each!(L, i: T::ZERO, Real::abs(self.0[i])))
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
-        Self(self.0.map(Real::sqrt))
+        Self(each!(L, i: T::ZERO, Real::sqrt(self.0[i])))
     }
     #[inline(always)]
     fn at_most(self, limit: Self) -> [bool; L] {
-        array::from_fn(|lane| self.0[lane] <= limit.0[lane])
+        each!(L, i: false, self.0[i] <= limit.0[i])
     }
     #[inline(always)]
     fn less_than(self, limit: Self) -> [bool; L] {
-        array::from_fn(|lane| self.0[lane] < limit.0[lane])
+        each!(L, i: false, self.0[i] < limit.0[i])
     }
     #[inline(always)]
     fn both(a: [bool; L], b: [bool; L]) -> [bool; L] {
-        array::from_fn(|lane| a[lane] & b[lane])
+        each!(L, i: false, a[i] & b[i])
     }
     #[inline(always)]
     fn all(mask: [bool; L]) -> bool {
-        mask.iter().fold(true, |all, &lane| all & lane)
+        let mut all = true;
+        for lane in mask {
+            all &= lane;
+        }
+        all
     }
     #[inline(always)]
     fn select(mask: [bool; L], yes: Self, no: Self) -> Self {
-        Self(array::from_fn(|lane| T::select(mask[lane], yes.0[lane], no.0[lane])))
+        Self(each!(L, i: T::ZERO, T::select(mask[i], yes.0[i], no.0[i])))
     }
 }
 

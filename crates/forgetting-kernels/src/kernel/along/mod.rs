@@ -110,13 +110,12 @@ impl<'a, T: Real, const B: usize, const R: usize> Room<'a, T, B, R> {
         diagonal: &mut [T],
     ) {
         for b in 0..self.of_all.len() {
-            let turns: [Turn<'_, T>; R] = core::array::from_fn(|r| {
-                let (l, own) = (r / 2, &self.of_one[b][r / 2]);
-                match r % 2 {
-                    0 => Turn { slope: &own[WIDENING], factor: z_of(self.z, l, b) },
-                    _ => Turn { slope: &own[SLOPE], factor: &own[V] },
-                }
-            });
+            let mut turns = [Turn { slope: &self.of_all[b][D], factor: &self.of_all[b][D] }; R];
+            for l in 0..B {
+                let own = &self.of_one[b][l];
+                turns[2 * l] = Turn { slope: &own[WIDENING], factor: z_of(self.z, l, b) };
+                turns[2 * l + 1] = Turn { slope: &own[SLOPE], factor: &own[V] };
+            }
             let block = block_mut(columns, b);
             turn_columns::<T, V, _, GROUP, R>((block, b), self.sums, &turns);
             settle(block, (diagonal, b), &self.of_all[b][D]);

@@ -133,15 +133,19 @@ impl<T: Real> DeadZone<T> {
     }
 }
 
+/// A few streams, of which some may need a tighter bound of P's trace.
+trait Trace<A> {
+    /// The trace of P of each.
+    fn trace(&self) -> A;
+}
+
 /// The bound of P's trace after growing so, and where of `wanted` there is room for that.
-///
-/// `trace` is P's trace, for the streams that need a tighter bound.
 #[inline(always)]
 fn make_room<T: Real, A: Abreast<T>>(
     bound: A,
     (growth, added): (A, A),
     wanted: A::Mask,
-    trace: impl FnOnce() -> A,
+    streams: &impl Trace<A>,
 ) -> (A, A::Mask) {
     let ceiling = A::splat(T::CEILING);
     let next = bound * growth + added;
@@ -149,7 +153,7 @@ fn make_room<T: Real, A: Abreast<T>>(
     if A::all(room) {
         return (next, wanted);
     }
-    let next = A::select(room, next, trace() * growth + added);
+    let next = A::select(room, next, streams.trace() * growth + added);
     (next, A::both(wanted, next.less_than(ceiling)))
 }
 

@@ -30,20 +30,36 @@ impl<T: Real> Turn<'_, T> {
 /// The x of `R` changes.
 pub trait Xs<T: Real, const R: usize> {
     /// Beside the tiles of row `t`.
-    fn chunks(&mut self, t: usize) -> [&mut T::Chunk; R];
+    fn load<V: Vector<T>>(&self, t: usize) -> [V; R];
+    /// Puts them back.
+    fn store<V: Vector<T>>(&mut self, t: usize, xs: [V; R]);
 }
 
-impl<T: Real, const R: usize> Xs<T, R> for [LongMut<'_, T>; R] {
+impl<T: Real> Xs<T, 1> for LongMut<'_, T> {
     #[inline(always)]
-    fn chunks(&mut self, t: usize) -> [&mut T::Chunk; R] {
-        self.each_mut().map(|x| x.chunk(t))
+    fn load<V: Vector<T>>(&self, t: usize) -> [V; 1] {
+        [V::load(self.chunk(t))]
+    }
+    #[inline(always)]
+    fn store<V: Vector<T>>(&mut self, t: usize, [x]: [V; 1]) {
+        x.store(self.chunk_mut(t));
     }
 }
 
 impl<T: Real, const R: usize> Xs<T, R> for [[T::Chunk; R]] {
     #[inline(always)]
-    fn chunks(&mut self, t: usize) -> [&mut T::Chunk; R] {
-        self[t].each_mut()
+    fn load<V: Vector<T>>(&self, t: usize) -> [V; R] {
+        let mut xs = [V::splat(T::ZERO); R];
+        for r in 0..R {
+            xs[r] = V::load(&self[t][r]);
+        }
+        xs
+    }
+    #[inline(always)]
+    fn store<V: Vector<T>>(&mut self, t: usize, xs: [V; R]) {
+        for r in 0..R {
+            xs[r].store(&mut self[t][r]);
+        }
     }
 }
 
@@ -78,34 +94,30 @@ fn columns<T, V, X, const R: usize, const C: usize, const FIRST: usize>(
 {
     let Some((last, above)) = block.split_last_mut() else { return };
     for (t, tile) in above.iter_mut().enumerate() {
-        turn_tile::<T, V, R, C, FIRST>(tile, xs.chunks(t), turns, false);
+        let x = turn_tile::<T, V, R, C, FIRST>(tile, xs.load(t), turns);
+        xs.store(t, x);
     }
-    // the rows of the diagonal: before their first column x is 0, whatever the buffer holds
-    let fresh = FIRST == 0 && (b * BLOCK).is_multiple_of(T::ROWS);
-    turn_tile::<T, V, R, C, FIRST>(last, xs.chunks(above.len()), turns, fresh);
+    let mut x = xs.load::<V>(above.len());
+    if FIRST == 0 && (b * BLOCK).is_multiple_of(T::ROWS) {
+        // the rows of the diagonal: before their first column x is 0, whatever the buffer holds
+        x = [V::splat(T::ZERO); R];
+    }
+    let x = turn_tile::<T, V, R, C, FIRST>(last, x, turns);
+    xs.store(above.len(), x);
 }
 
 #[inline(always)]
 fn turn_tile<T: Real, V: Vector<T>, const R: usize, const C: usize, const FIRST: usize>(
     tile: &mut Tile<T>,
-    xs: [&mut T::Chunk; R],
+    mut x: [V; R],
     turns: &[Turn<'_, T>; R],
-    fresh: bool,
-) {
-    let mut x = [V::splat(T::ZERO); R];
-    if !fresh {
-        for r in 0..R {
-            x[r] = V::load(xs[r]);
-        }
-    }
+) -> [V; R] {
     // in pairs: between two of them nothing changes its register
     for c in (FIRST..FIRST + C).step_by(2) {
         turn_column(&mut tile[c], &mut x, turns, c);
         turn_column(&mut tile[c + 1], &mut x, turns, c + 1);
     }
-    for (to, x) in xs.into_iter().zip(x) {
-        x.store(to);
-    }
+    x
 }
 
 #[inline(always)]
