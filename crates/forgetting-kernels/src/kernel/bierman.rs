@@ -15,8 +15,8 @@
 
 use super::layout::BLOCK;
 use super::tiles::{
-    beyond, block, block_mut, dots, eight, put_eight, turn_columns, Long, LongMut, PerColumn, Tile,
-    Turn,
+    block, block_mut, dots, load_eight, padding_d, store_eight, turn_columns, Long, LongMut,
+    PerColumn, Tile, Turn,
 };
 use crate::kernel::measured::Measured;
 use crate::number::eight::Eight;
@@ -109,16 +109,15 @@ pub fn above_floor<T: Real, E: Eight<T>>(less_least: E) -> bool {
 /// A column of U may be as long as D is small: lifting D alone would add to P whatever the floor is
 /// times the square of that length. So the column becomes √(D/floor) of what it is.
 #[inline(always)]
-pub fn settle<T: Real>(block: &mut [Tile<T>], (diagonal, b): (&mut [T], usize), d: &PerColumn<T>) {
-    let mut least = T::CEILING;
-    for c in 0..BLOCK {
-        least = least.min(d[c]);
+pub fn settle<T: Real, E: Eight<T>>(
+    block: &mut [Tile<T>],
+    (diagonal, b): (&mut [T], usize),
+    mut d: E,
+) {
+    if !E::all(E::splat(T::FLOOR).at_most(d)) {
+        d = E::read(&lift(block, b, &d.numbers()));
     }
-    if least >= T::FLOOR {
-        put_eight(diagonal, b, d);
-    } else {
-        put_eight(diagonal, b, &lift(block, b, d));
-    }
+    store_eight(diagonal, b, d);
 }
 
 #[cold]
@@ -148,17 +147,17 @@ pub fn scale_and_measure<T: Real, V: Vector<T>, const GROUP: usize>(
     let (mut chain, growth) = (Chain::start(), V::Eight::splat(growth));
     let mut ahead = dots::<T, V, GROUP>(block(columns, 0), &f);
     for b in 0..blocks {
-        let w = V::Eight::read(&ahead);
+        let w = ahead;
         if b + 1 < blocks {
             // needs nothing of this block: the machine does both at once
             ahead = dots::<T, V, GROUP>(block(columns, b + 1), &f);
         }
-        let d = V::Eight::read(&eight(diagonal, b, beyond())) * growth;
+        let d = load_eight::<T, V::Eight>(diagonal, b, padding_d()) * growth;
         let Pass { d, slope, v, .. } = chain.pass(d, w);
         let turn = Turn { slope: &slope.numbers(), factor: &v.numbers() };
         let block = block_mut(columns, b);
         turn_columns::<T, V, _, GROUP, 1>((block, b), &mut k, &[turn]);
-        settle(block, (diagonal, b), &d.numbers());
+        settle(block, (diagonal, b), d);
     }
     k.finish();
     chain

@@ -5,9 +5,10 @@
 use super::layout::{BLOCK, FEW};
 use super::registers::Small;
 use super::tiles::{
-    add_columns, block, dots, eight, put_eight, triangle, Long, LongMut, PerColumn, Tile,
+    add_columns, block, dots, load_eight, store_eight, triangle, Long, LongMut, PerColumn, Tile,
 };
 use crate::kernel::dispatch::Kernel;
+use crate::number::eight::Eight;
 use crate::number::vector::Vector;
 use crate::number::Real;
 
@@ -50,7 +51,8 @@ pub fn leverage_of<T: Real, V: Vector<T>, const GROUP: usize>(
 ) -> T {
     let (long, mut sum) = (Long::new(f), T::ZERO);
     for b in 0..f.len().div_ceil(BLOCK) {
-        let (w, d) = (dots::<T, V, GROUP>(block(columns, b), &long), eight(diagonal, b, T::ZERO));
+        let w = dots::<T, V, GROUP>(block(columns, b), &long).numbers();
+        let d = load_eight::<T, V::Eight>(diagonal, b, T::ZERO).numbers();
         for c in 0..BLOCK {
             sum = (d[c] * w[c]).mul_add(w[c], sum);
         }
@@ -90,7 +92,7 @@ impl<T: Real> Kernel<T> for MultiplyTransposed<'_, T> {
         }
         for b in (0..x.len().div_ceil(BLOCK)).rev() {
             let w = dots::<T, V, GROUP>(block(columns, b), &Long::new(x));
-            put_eight(x, b, &w);
+            store_eight(x, b, w);
         }
     }
 }

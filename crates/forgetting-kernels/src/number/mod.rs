@@ -2,6 +2,7 @@
 
 pub mod eight;
 pub mod lane;
+pub mod sums;
 pub mod vector;
 
 use crate::number::vector::{Lanes, Vector};

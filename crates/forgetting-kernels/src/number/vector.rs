@@ -1,7 +1,7 @@
 //! Neighbouring numbers that go through the same operations together.
 
-use crate::number::eight::Eight;
 use crate::number::lane::{Lane, One};
+use crate::number::sums::Sums;
 use crate::number::Real;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -9,19 +9,17 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 ///
 /// A number type has one for every set of instructions that it may run on; all give the same
 /// bits.
-pub trait Vector<T: Real>: Lane<T> {
+pub trait Vector<T: Real>: Sums<T> {
     /// A single number, as this set of instructions works fastest with one.
     type One: One<T>;
     /// What the streams of a fleet run in.
     type Abreast: Abreast<T>;
-    /// A number for each column of a block.
-    type Eight: Eight<T>;
 
     /// The numbers of `chunk`.
     fn load(chunk: &T::Chunk) -> Self;
     /// Writes all lanes to `chunk`.
     fn store(self, chunk: &mut T::Chunk);
-    /// So many lanes from the first on, and zeros.
+    /// The first `count` lanes, zeros in the rest.
     #[inline(always)]
     fn first(self, count: usize) -> Self {
         let mut position = T::chunk(&[]);
@@ -31,21 +29,10 @@ pub trait Vector<T: Real>: Lane<T> {
         let within = Self::load(&position).less_than(Self::splat(T::from_f64(count as f64)));
         Self::select(within, self, Self::splat(T::ZERO))
     }
-    /// The sum of all lanes: halves added to halves down to four, then pairs.
-    fn sum(self) -> T;
-    /// The sum of each of `C` vectors.
-    #[inline(always)]
-    fn sums<const C: usize>(vectors: [Self; C]) -> [T; C] {
-        let mut sums = [T::ZERO; C];
-        for c in 0..C {
-            sums[c] = vectors[c].sum();
-        }
-        sums
-    }
 }
 
-/// A number of each of a few streams, in as few registers as there are: long recursions need the
-/// others for their own numbers.
+/// One number of each of COUNT streams in one register. Narrower than [`Vector`], so that a long
+/// recursion has registers left for its own values.
 pub trait Abreast<T: Real>: Lane<T> {
     /// How many streams, at most those of a chunk.
     const COUNT: usize;
@@ -173,7 +160,6 @@ impl<T: Real, const L: usize> Lane<T> for Lanes<T, L> {
 impl<T: Real<Chunk = [T; L]>, const L: usize> Vector<T> for Lanes<T, L> {
     type Abreast = T;
     type One = T;
-    type Eight = Lanes<T, 8>;
 
     #[inline(always)]
     fn load(chunk: &[T; L]) -> Self {
@@ -183,6 +169,12 @@ impl<T: Real<Chunk = [T; L]>, const L: usize> Vector<T> for Lanes<T, L> {
     fn store(self, chunk: &mut [T; L]) {
         *chunk = self.0;
     }
+}
+
+impl<T: Real, const L: usize> Sums<T> for Lanes<T, L> {
+    type Four = [T; 4];
+    type Eight = Lanes<T, 8>;
+
     #[inline(always)]
     fn sum(self) -> T {
         let mut lanes = self.0;
@@ -194,5 +186,17 @@ impl<T: Real<Chunk = [T; L]>, const L: usize> Vector<T> for Lanes<T, L> {
             }
         }
         (lanes[0] + lanes[1]) + (lanes[2] + lanes[3])
+    }
+    #[inline(always)]
+    fn four_sums([a, b, c, d]: [Self; 4]) -> [T; 4] {
+        [a.sum(), b.sum(), c.sum(), d.sum()]
+    }
+    #[inline(always)]
+    fn numbers(four: [T; 4]) -> [T; 4] {
+        four
+    }
+    #[inline(always)]
+    fn join([a, b, c, d]: [T; 4], [e, f, g, h]: [T; 4]) -> Lanes<T, 8> {
+        Lanes([a, b, c, d, e, f, g, h])
     }
 }

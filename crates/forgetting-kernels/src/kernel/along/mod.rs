@@ -28,7 +28,10 @@ mod solve;
 
 use super::bierman::settle;
 use super::layout::BLOCK;
-use super::tiles::{beyond, block, block_mut, dots_beside, eight, turn_columns, PerColumn, Turn};
+use super::tiles::{
+    block, block_mut, dots_beside, load_eight, padding_d, turn_columns, PerColumn, Turn,
+};
+use crate::number::eight::Eight;
 use crate::number::vector::Vector;
 use crate::number::Real;
 use solve::solve;
@@ -92,13 +95,18 @@ impl<'a, T: Real, const B: usize, const R: usize> Room<'a, T, B, R> {
     #[inline(always)]
     pub fn look<V: Vector<T>, const GROUP: usize>(&mut self, columns: &[T], diagonal: &[T]) {
         for b in 0..self.of_all.len() {
-            self.of_all[b][D] = eight(diagonal, b, beyond());
-            let w = dots_beside::<T, V, GROUP, B>(block(columns, b), self.f);
-            for (of_one, w) in self.of_one[b].iter_mut().zip(w) {
-                of_one[W] = w;
+            let d = load_eight::<T, V::Eight>(diagonal, b, padding_d());
+            d.write(&mut self.of_all[b][D]);
+            for l in 0..B {
+                let w = dots_beside::<T, V, GROUP, B>(block(columns, b), self.f, l);
+                w.write(&mut self.of_one[b][l][W]);
             }
         }
-        self.z.copy_from_slice(self.f);
+        for (z, f) in self.z.iter_mut().zip(&*self.f) {
+            for l in 0..B {
+                V::load(&f[l]).store(&mut z[l]);
+            }
+        }
         solve::<T, V, B>(columns, self.of_all.len(), self.z);
     }
 
@@ -118,7 +126,7 @@ impl<'a, T: Real, const B: usize, const R: usize> Room<'a, T, B, R> {
             }
             let block = block_mut(columns, b);
             turn_columns::<T, V, _, GROUP, R>((block, b), self.sums, &turns);
-            settle(block, (diagonal, b), &self.of_all[b][D]);
+            settle(block, (diagonal, b), V::Eight::read(&self.of_all[b][D]));
         }
     }
 

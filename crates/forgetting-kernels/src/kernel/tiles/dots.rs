@@ -1,6 +1,6 @@
 //! Products of a vector with the columns of a block.
 
-use super::{Long, PerColumn, Tile, BLOCK};
+use super::{Long, Tile};
 use crate::number::vector::Vector;
 use crate::number::Real;
 
@@ -9,35 +9,26 @@ use crate::number::Real;
 pub fn dots<T: Real, V: Vector<T>, const GROUP: usize>(
     block: &[Tile<T>],
     f: &Long<'_, T>,
-) -> PerColumn<T> {
-    let mut sums = [T::ZERO; BLOCK];
+) -> V::Eight {
     if GROUP >= 8 {
-        sums = V::sums(of_columns::<T, V, 8, 0>(block, f));
-    } else {
-        let (low, high) = sums.split_at_mut(4);
-        low.copy_from_slice(&V::sums(of_columns::<T, V, 4, 0>(block, f)));
-        high.copy_from_slice(&V::sums(of_columns::<T, V, 4, 4>(block, f)));
+        return V::eight_sums(of_columns::<T, V, 8, 0>(block, f));
     }
-    sums
+    let first = V::four_sums(of_columns::<T, V, 4, 0>(block, f));
+    V::join(first, V::four_sums(of_columns::<T, V, 4, 4>(block, f)))
 }
 
-/// The same for each of `S` vectors that lie side by side.
+/// The same for vector `s` of `S` that lie side by side.
 #[inline(always)]
 pub fn dots_beside<T: Real, V: Vector<T>, const GROUP: usize, const S: usize>(
     block: &[Tile<T>],
     f: &[[T::Chunk; S]],
-) -> [PerColumn<T>; S] {
-    let mut dots = [[T::ZERO; BLOCK]; S];
-    for s in 0..S {
-        if GROUP >= 8 {
-            dots[s] = V::sums(beside::<T, V, 8, 0, S>(block, f, s));
-        } else {
-            let [a, b, c, d] = V::sums(beside::<T, V, 4, 0, S>(block, f, s));
-            let [e, f, g, h] = V::sums(beside::<T, V, 4, 4, S>(block, f, s));
-            dots[s] = [a, b, c, d, e, f, g, h];
-        }
+    s: usize,
+) -> V::Eight {
+    if GROUP >= 8 {
+        return V::eight_sums(beside::<T, V, 8, 0, S>(block, f, s));
     }
-    dots
+    let first = V::four_sums(beside::<T, V, 4, 0, S>(block, f, s));
+    V::join(first, V::four_sums(beside::<T, V, 4, 4, S>(block, f, s)))
 }
 
 #[inline(always)]
