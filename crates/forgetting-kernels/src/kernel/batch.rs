@@ -94,10 +94,10 @@ impl<'a, T: Real> Room<'a, T> {
             if next {
                 let own = load_eight::<T, V::Eight>(diagonal, b, padding_d());
                 own.write(d);
+                let w = dots_beside::<T, V, GROUP, BATCH>(block(columns, b), self.f);
                 for l in 0..BATCH {
-                    let w = dots_beside::<T, V, GROUP, BATCH>(block(columns, b), self.f, l);
-                    w.write(&mut changes[l][W_THEN_SLOPE]);
-                    leverages[l] = (own * w).mul_add(w, leverages[l]);
+                    w[l].write(&mut changes[l][W_THEN_SLOPE]);
+                    leverages[l] = (own * w[l]).mul_add(w[l], leverages[l]);
                 }
             }
         }

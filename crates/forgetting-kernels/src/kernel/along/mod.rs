@@ -97,9 +97,9 @@ impl<'a, T: Real, const B: usize, const R: usize> Room<'a, T, B, R> {
         for b in 0..self.of_all.len() {
             let d = load_eight::<T, V::Eight>(diagonal, b, padding_d());
             d.write(&mut self.of_all[b][D]);
+            let w = dots_beside::<T, V, GROUP, B>(block(columns, b), self.f);
             for l in 0..B {
-                let w = dots_beside::<T, V, GROUP, B>(block(columns, b), self.f, l);
-                w.write(&mut self.of_one[b][l][W]);
+                w[l].write(&mut self.of_one[b][l][W]);
             }
         }
         for (z, f) in self.z.iter_mut().zip(&*self.f) {
