@@ -30,13 +30,18 @@ pub struct Pass<E> {
     pub d: E,
     pub slope: E,
     pub v: E,
-    /// after each column
-    pub a: E,
+    /// 1/a after each column
+    pub inverse: E,
 }
 
-/// What passes from column to column: s = a − 1, in all lanes.
+/// What passes from column to column, in all lanes.
 #[derive(Clone, Copy)]
-pub struct Chain<E>(E);
+pub struct Chain<E> {
+    /// a − 1
+    s: E,
+    /// 1/a
+    inverse: E,
+}
 
 impl<E> Chain<E> {
     #[inline(always)]
@@ -44,26 +49,27 @@ impl<E> Chain<E> {
     where
         E: Eight<T>,
     {
-        Self(E::splat(T::ZERO))
+        Self { s: E::splat(T::ZERO), inverse: E::splat(T::ONE) }
     }
 
     /// Goes through the columns of a block.
     ///
-    /// Only the sum s passes from block to block; all else is done for all columns side by side.
+    /// Only s and 1/a pass from block to block; all else is done for all columns side by side, with
+    /// one division.
     #[inline(always)]
     pub fn pass<T: Real>(&mut self, d: E, w: E) -> Pass<E>
     where
         E: Eight<T>,
     {
-        let (v, first) = (d * w, E::splat(T::ONE) + self.0);
+        let (v, one, first) = (d * w, E::splat(T::ONE), E::splat(T::ONE) + self.s);
         let sums = (w * v).running_sums();
         let a = first + sums;
-        let before = a.before(first);
-        let slope = -w / before;
+        let inverse = one / a;
+        let slope = -w * inverse.before(self.inverse);
         // the ratio first: D may be as large as a number gets, and a as the square of one
-        let d = d * (before / a);
-        self.0 = (self.0 + sums).last();
-        Pass { d, slope, v, a }
+        let d = d * (a.before(first) * inverse);
+        (self.s, self.inverse) = ((self.s + sums).last(), inverse.last());
+        Pass { d, slope, v, inverse }
     }
 
     /// At the end, with the largest element of D.
@@ -72,7 +78,7 @@ impl<E> Chain<E> {
     where
         E: Eight<T>,
     {
-        let (leverage, one) = (self.0.numbers()[0], T::ONE);
+        let (leverage, one) = (self.s.numbers()[0], T::ONE);
         let variance = one + leverage;
         Measured { leverage, variance, inverse_variance: one / variance, largest, forgot }
     }

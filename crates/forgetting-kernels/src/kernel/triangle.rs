@@ -9,6 +9,7 @@ use super::tiles::{
 };
 use crate::kernel::dispatch::Kernel;
 use crate::number::eight::Eight;
+use crate::number::lane::Lane;
 use crate::number::vector::Vector;
 use crate::number::Real;
 
@@ -49,15 +50,13 @@ pub fn leverage_of<T: Real, V: Vector<T>, const GROUP: usize>(
     diagonal: &[T],
     f: &[T],
 ) -> T {
-    let (long, mut sum) = (Long::new(f), T::ZERO);
+    let (long, mut sum) = (Long::new(f), V::Eight::splat(T::ZERO));
     for b in 0..f.len().div_ceil(BLOCK) {
-        let w = dots::<T, V, GROUP>(block(columns, b), &long).numbers();
-        let d = load_eight::<T, V::Eight>(diagonal, b, T::ZERO).numbers();
-        for c in 0..BLOCK {
-            sum = (d[c] * w[c]).mul_add(w[c], sum);
-        }
+        let w = dots::<T, V, GROUP>(block(columns, b), &long);
+        let d = load_eight::<T, V::Eight>(diagonal, b, T::ZERO);
+        sum = (d * w).mul_add(w, sum);
     }
-    sum
+    sum.running_sums().last().numbers()[0]
 }
 
 #[inline(always)]

@@ -8,7 +8,7 @@
 //!
 //! ```text
 //! from the last block:   z, w, q = z / D;  fᵀP⁻¹f = Σ z q;  t_j = 1/c + Σ_{i>j} z_i q_i
-//! from the first:        D'_j = D_j + z_j² / t_j,  widening_j = q_j / (t_j + z_j q_j)
+//! from the first:        D'_j = D_j + z_j² / t_j,  widening_j = q_j / (t_j + z_j q_j) = q_j / t_{j−1}
 //!                        w'_j = w_j + widening_j p,  p ← p + z_j w_j                  (w' = U'ᵀf)
 //!                        u' = u + widening x,  x ← x + z u,  then Bierman with u' and w'
 //! ```

@@ -184,14 +184,16 @@ fn two<T: Real, V: Vector<T>, const GROUP: usize>(
     let added = more(weight, information, first)?;
     keeps_digits(leverage + added * second).then_some(())?;
     bound += added;
-    let (measured, _, above) = room.add_and_measure::<V::Eight, 0>(information / weight);
+    let (measured, _, above) =
+        room.add_and_measure::<V::Eight, 0>(information / weight, information);
     let error = y[0] - predicted[0];
     let step = error * measured.inverse_variance;
     (above && accepts(error, first)).then_some(())?;
 
     let information = room.information::<V::Eight, 1>();
     bound += more(weight, information, second)?;
-    let (after, shared, above) = room.add_and_measure::<V::Eight, 1>(information / weight);
+    let (after, shared, above) =
+        room.add_and_measure::<V::Eight, 1>(information / weight, information);
     let later = (-step).mul_add(shared, y[1] - predicted[1]);
     (above && accepts(later, second) && bound < T::CEILING).then_some(())?;
 
