@@ -111,6 +111,18 @@ pub fn copy_some<T: Copy, const L: usize>(to: &mut [T; L], from: &[T]) {
     }
 }
 
+/// Copies the first of `from`, as many as there is room for; `from` is of constant length.
+///
+/// One by one, as [`copy_some`].
+#[inline(always)]
+pub fn copy_first<T: Copy>(to: &mut [T], from: &[T]) {
+    for (i, &x) in from.iter().enumerate() {
+        if i < to.len() {
+            to[i] = x;
+        }
+    }
+}
+
 macro_rules! real {
     ($float:ident, $lanes:literal, $ceiling:expr, $floor:expr, $sqrt:path, $ln:path, $exp:path) => {
         impl Real for $float {

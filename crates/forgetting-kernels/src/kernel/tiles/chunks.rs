@@ -1,7 +1,7 @@
 //! A vector beside U, in chunks of as many numbers as a tile has rows.
 
 use super::{PerColumn, BLOCK};
-use crate::number::Real;
+use crate::number::{copy_first, Real};
 
 /// A vector to be read.
 #[derive(Clone, Copy)]
@@ -79,11 +79,6 @@ impl<'a, T: Real> LongMut<'a, T> {
 
     #[inline(always)]
     pub fn finish(self) {
-        // one by one: a copy of any length would be a call
-        for (i, &x) in self.tail.as_ref().iter().enumerate() {
-            if i < self.rest.len() {
-                self.rest[i] = x;
-            }
-        }
+        copy_first(self.rest, self.tail.as_ref());
     }
 }

@@ -20,7 +20,7 @@ pub use rank_one::{turn_columns, Turn};
 use super::layout::{tiles_of, BLOCK};
 use crate::number::eight::Eight;
 use crate::number::vector::Vector;
-use crate::number::{copy_some, Real};
+use crate::number::{copy_first, copy_some, Real};
 
 /// Eight columns of as many rows as a vector has numbers.
 pub type Tile<T> = [<T as Real>::Chunk; BLOCK];
@@ -81,11 +81,7 @@ pub fn store_eight<T: Real, E: Eight<T>>(numbers: &mut [T], b: usize, eight: E) 
     let numbers = &mut numbers[b * BLOCK..];
     match numbers.first_chunk_mut() {
         Some(numbers) => eight.write(numbers),
-        None => {
-            for (to, x) in numbers.iter_mut().zip(eight.numbers()) {
-                *to = x;
-            }
-        }
+        None => copy_first(numbers, &eight.numbers()),
     }
 }
 
