@@ -66,8 +66,9 @@ impl<'a, T: Real, A: Abreast<T>, const N: usize> State<'a, T, A, N> {
         if A::all(used) {
             return None;
         }
-        let mut copy = [A::splat(T::ZERO); MOST];
-        for at in 0..Self::LAYOUT.length() {
+        // not zeros: to clear so many is a call, for which all registers are put away
+        let mut copy = [self.read(0); MOST];
+        for at in 1..Self::LAYOUT.length() {
             copy[at] = self.read(at);
         }
         Some(copy)

@@ -198,7 +198,9 @@ impl<'a, T: Real, A: Abreast<T>> Columns<'a, T, A> {
     #[inline(always)]
     fn look(&mut self, work: &mut Work<'_, T>, weight: A) -> (A, A) {
         let (zero, one) = (A::splat(T::ZERO), A::splat(T::ONE));
-        work.z.copy_from_slice(work.f);
+        for i in 0..self.n {
+            put(work.z, i, get::<T, A>(work.f, i));
+        }
         let mut information = zero;
         in_groups_from_the_last!(self.eliminate(work));
         for c in (0..self.n).rev() {
