@@ -14,7 +14,6 @@ mod single;
 mod sums;
 
 use single::Single;
-use sums::{sums, Sum};
 
 /// Two registers of 256 bits.
 #[derive(Clone, Copy, Debug)]
@@ -54,7 +53,6 @@ use {at, at_mut};
 impl Vector<Fused<f64>> for Wide<__m512d> {
     type Abreast = Self;
     type One = Single<__m128d>;
-    type Eight = Self;
 
     #[inline(always)]
     fn load(chunk: &[Fused<f64>; 8]) -> Self {
@@ -64,20 +62,11 @@ impl Vector<Fused<f64>> for Wide<__m512d> {
     fn store(self, chunk: &mut [Fused<f64>; 8]) {
         unsafe { _mm512_storeu_pd(at_mut!(chunk, f64, 0), self.0) }
     }
-    #[inline(always)]
-    fn sum(self) -> Fused<f64> {
-        Sum::sum(self.halves())
-    }
-    #[inline(always)]
-    fn sums<const C: usize>(vectors: [Self; C]) -> [Fused<f64>; C] {
-        sums(vectors.map(Self::halves), Fused(0.0))
-    }
 }
 
 impl Vector<Fused<f64>> for Pair<__m256d> {
     type Abreast = Single<__m256d>;
     type One = Single<__m128d>;
-    type Eight = Self;
 
     #[inline(always)]
     fn load(chunk: &[Fused<f64>; 8]) -> Self {
@@ -90,20 +79,11 @@ impl Vector<Fused<f64>> for Pair<__m256d> {
             _mm256_storeu_pd(at_mut!(chunk, f64, 4), self.1);
         }
     }
-    #[inline(always)]
-    fn sum(self) -> Fused<f64> {
-        Sum::sum(self)
-    }
-    #[inline(always)]
-    fn sums<const C: usize>(vectors: [Self; C]) -> [Fused<f64>; C] {
-        sums(vectors, Fused(0.0))
-    }
 }
 
 impl Vector<Fused<f32>> for Wide<__m512> {
     type Abreast = Self;
     type One = Single<__m128>;
-    type Eight = Single<__m256>;
 
     #[inline(always)]
     fn load(chunk: &[Fused<f32>; 16]) -> Self {
@@ -113,20 +93,11 @@ impl Vector<Fused<f32>> for Wide<__m512> {
     fn store(self, chunk: &mut [Fused<f32>; 16]) {
         unsafe { _mm512_storeu_ps(at_mut!(chunk, f32, 0), self.0) }
     }
-    #[inline(always)]
-    fn sum(self) -> Fused<f32> {
-        Sum::sum(self.halves())
-    }
-    #[inline(always)]
-    fn sums<const C: usize>(vectors: [Self; C]) -> [Fused<f32>; C] {
-        sums(vectors.map(Self::halves), Fused(0.0))
-    }
 }
 
 impl Vector<Fused<f32>> for Pair<__m256> {
     type Abreast = Single<__m256>;
     type One = Single<__m128>;
-    type Eight = Single<__m256>;
 
     #[inline(always)]
     fn load(chunk: &[Fused<f32>; 16]) -> Self {
@@ -138,13 +109,5 @@ impl Vector<Fused<f32>> for Pair<__m256> {
             _mm256_storeu_ps(at_mut!(chunk, f32, 0), self.0);
             _mm256_storeu_ps(at_mut!(chunk, f32, 8), self.1);
         }
-    }
-    #[inline(always)]
-    fn sum(self) -> Fused<f32> {
-        Sum::sum(self)
-    }
-    #[inline(always)]
-    fn sums<const C: usize>(vectors: [Self; C]) -> [Fused<f32>; C] {
-        sums(vectors, Fused(0.0))
     }
 }

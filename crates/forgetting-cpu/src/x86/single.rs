@@ -143,7 +143,11 @@ macro_rules! abreast {
             }
             #[inline(always)]
             fn at(number: impl Fn(usize) -> Fused<$float>) -> Self {
-                Self::read(&core::array::from_fn::<_, $count, _>(number))
+                let mut numbers = [Fused(0.0); $count];
+                for k in 0..$count {
+                    numbers[k] = number(k);
+                }
+                Self::read(&numbers)
             }
             #[inline(always)]
             fn prefetch<L>(line: &L) {

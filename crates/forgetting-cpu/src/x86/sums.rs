@@ -1,53 +1,18 @@
-//! Sums across the lanes: halves added to halves down to four, then pairs.
+//! Sums across the numbers of vectors.
 //!
 //! As everywhere in this folder: only what has checked the machine names these types, so that
 //! every intrinsic here has its instructions.
 
+use super::single::Single;
 use super::{at_mut, Pair, Wide};
 use crate::Fused;
 use core::arch::x86_64::*;
+use forgetting_kernels::number::sums::Sums;
 
-impl Wide<__m512d> {
-    #[inline(always)]
-    pub fn halves(self) -> Pair<__m256d> {
-        Pair(unsafe { _mm512_castpd512_pd256(self.0) }, unsafe {
-            _mm512_extractf64x4_pd::<1>(self.0)
-        })
-    }
-}
+impl Sums<Fused<f64>> for Pair<__m256d> {
+    type Four = __m256d;
+    type Eight = Self;
 
-impl Wide<__m512> {
-    #[inline(always)]
-    pub fn halves(self) -> Pair<__m256> {
-        Pair(unsafe { _mm512_castps512_ps256(self.0) }, unsafe {
-            _mm512_extractf32x8_ps::<1>(self.0)
-        })
-    }
-}
-
-/// A vector whose lanes are added up.
-pub trait Sum<F>: Copy {
-    fn sum(self) -> F;
-    /// The sums of four vectors: what `sum` does to each, side by side.
-    fn four(vectors: &[Self; 4]) -> [F; 4];
-}
-
-/// The sum of each.
-#[inline(always)]
-pub fn sums<F: Copy, V: Sum<F>, const C: usize>(vectors: [V; C], zero: F) -> [F; C] {
-    let mut sums = [zero; C];
-    let (fours, rest) = vectors.as_chunks::<4>();
-    let (sums_of_fours, sums_of_rest) = sums.as_chunks_mut::<4>();
-    for (sums, four) in sums_of_fours.iter_mut().zip(fours) {
-        *sums = V::four(four);
-    }
-    for (sum, vector) in sums_of_rest.iter_mut().zip(rest) {
-        *sum = vector.sum();
-    }
-    sums
-}
-
-impl Sum<Fused<f64>> for Pair<__m256d> {
     #[inline(always)]
     fn sum(self) -> Fused<f64> {
         unsafe {
@@ -58,22 +23,33 @@ impl Sum<Fused<f64>> for Pair<__m256d> {
             Fused(_mm_cvtsd_f64(_mm_add_sd(pairs, _mm_unpackhi_pd(pairs, pairs))))
         }
     }
-
     #[inline(always)]
-    fn four(vectors: &[Self; 4]) -> [Fused<f64>; 4] {
-        let mut sums = [Fused(0.0); 4];
+    fn four_sums([a, b, c, d]: [Self; 4]) -> __m256d {
         unsafe {
-            let [a, b, c, d] = vectors.map(|Pair(low, high)| _mm256_add_pd(low, high));
+            let (a, b) = (_mm256_add_pd(a.0, a.1), _mm256_add_pd(b.0, b.1));
+            let (c, d) = (_mm256_add_pd(c.0, c.1), _mm256_add_pd(d.0, d.1));
             let (ab, cd) = (_mm256_hadd_pd(a, b), _mm256_hadd_pd(c, d));
             let low = _mm256_permute2f128_pd::<0x20>(ab, cd);
             let high = _mm256_permute2f128_pd::<0x31>(ab, cd);
-            _mm256_storeu_pd(at_mut!(sums, f64, 0), _mm256_add_pd(low, high));
+            _mm256_add_pd(low, high)
         }
-        sums
+    }
+    #[inline(always)]
+    fn numbers(four: __m256d) -> [Fused<f64>; 4] {
+        let mut numbers = [Fused(0.0); 4];
+        unsafe { _mm256_storeu_pd(at_mut!(numbers, f64, 0), four) };
+        numbers
+    }
+    #[inline(always)]
+    fn join(first: __m256d, second: __m256d) -> Self {
+        Self(first, second)
     }
 }
 
-impl Sum<Fused<f32>> for Pair<__m256> {
+impl Sums<Fused<f32>> for Pair<__m256> {
+    type Four = __m128;
+    type Eight = Single<__m256>;
+
     #[inline(always)]
     fn sum(self) -> Fused<f32> {
         unsafe {
@@ -84,12 +60,11 @@ impl Sum<Fused<f32>> for Pair<__m256> {
             Fused(_mm_cvtss_f32(_mm_add_ss(pairs, _mm_movehdup_ps(pairs))))
         }
     }
-
     #[inline(always)]
-    fn four(vectors: &[Self; 4]) -> [Fused<f32>; 4] {
-        let mut sums = [Fused(0.0); 4];
+    fn four_sums([a, b, c, d]: [Self; 4]) -> __m128 {
         unsafe {
-            let [a, b, c, d] = vectors.map(|Pair(low, high)| _mm256_add_ps(low, high));
+            let (a, b) = (_mm256_add_ps(a.0, a.1), _mm256_add_ps(b.0, b.1));
+            let (c, d) = (_mm256_add_ps(c.0, c.1), _mm256_add_ps(d.0, d.1));
             // four lanes of a or c in the lower half, of b or d in the upper one
             let ab = _mm256_add_ps(
                 _mm256_permute2f128_ps::<0x20>(a, b),
@@ -103,8 +78,137 @@ impl Sum<Fused<f32>> for Pair<__m256> {
             // a c a c in the lower half, b d b d in the upper one
             let all = _mm256_hadd_ps(pairs, pairs);
             let (ac, bd) = (_mm256_castps256_ps128(all), _mm256_extractf128_ps::<1>(all));
-            _mm_storeu_ps(at_mut!(sums, f32, 0), _mm_unpacklo_ps(ac, bd));
+            _mm_unpacklo_ps(ac, bd)
         }
-        sums
+    }
+    #[inline(always)]
+    fn numbers(four: __m128) -> [Fused<f32>; 4] {
+        let mut numbers = [Fused(0.0); 4];
+        unsafe { _mm_storeu_ps(at_mut!(numbers, f32, 0), four) };
+        numbers
+    }
+    #[inline(always)]
+    fn join(first: __m128, second: __m128) -> Single<__m256> {
+        Single(unsafe { _mm256_set_m128(second, first) })
+    }
+}
+
+impl Sums<Fused<f64>> for Wide<__m512d> {
+    type Four = __m256d;
+    type Eight = Self;
+
+    #[inline(always)]
+    fn sum(self) -> Fused<f64> {
+        self.halves().sum()
+    }
+    #[inline(always)]
+    fn four_sums([a, b, c, d]: [Self; 4]) -> __m256d {
+        Pair::four_sums([a.halves(), b.halves(), c.halves(), d.halves()])
+    }
+    #[inline(always)]
+    fn numbers(four: __m256d) -> [Fused<f64>; 4] {
+        Pair::numbers(four)
+    }
+    #[inline(always)]
+    fn join(first: __m256d, second: __m256d) -> Self {
+        Self(unsafe { _mm512_insertf64x4::<1>(_mm512_castpd256_pd512(first), second) })
+    }
+    #[inline(always)]
+    fn eight_sums([a, b, c, d, e, f, g, h]: [Self; 8]) -> Self {
+        let abcd = Self::fours(a, c).pairs(Self::fours(b, d)).0;
+        let efgh = Self::fours(e, g).pairs(Self::fours(f, h)).0;
+        unsafe {
+            let first = _mm512_shuffle_f64x2::<0x88>(abcd, efgh);
+            Self(_mm512_add_pd(first, _mm512_shuffle_f64x2::<0xDD>(abcd, efgh)))
+        }
+    }
+}
+
+impl Sums<Fused<f32>> for Wide<__m512> {
+    type Four = __m128;
+    type Eight = Single<__m256>;
+
+    #[inline(always)]
+    fn sum(self) -> Fused<f32> {
+        self.halves().sum()
+    }
+    #[inline(always)]
+    fn four_sums([a, b, c, d]: [Self; 4]) -> __m128 {
+        Pair::four_sums([a.halves(), b.halves(), c.halves(), d.halves()])
+    }
+    #[inline(always)]
+    fn numbers(four: __m128) -> [Fused<f32>; 4] {
+        Pair::numbers(four)
+    }
+    #[inline(always)]
+    fn join(first: __m128, second: __m128) -> Single<__m256> {
+        Pair::<__m256>::join(first, second)
+    }
+    #[inline(always)]
+    fn eight_sums([a, b, c, d, e, f, g, h]: [Self; 8]) -> Single<__m256> {
+        let aceg = Self::eights(a, c).fours(Self::eights(e, g)).0;
+        let bdfh = Self::eights(b, d).fours(Self::eights(f, h)).0;
+        unsafe {
+            let first = _mm512_shuffle_ps::<0x88>(aceg, bdfh);
+            // the sums of both pairs of a, of b, …
+            let pairs = _mm512_add_ps(first, _mm512_shuffle_ps::<0xDD>(aceg, bdfh));
+            let sums = _mm512_add_ps(pairs, _mm512_shuffle_ps::<0xB1>(pairs, pairs));
+            let order = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 0, 0, 0, 0, 0, 0, 0, 0);
+            Single(_mm512_castps512_ps256(_mm512_permutexvar_ps(order, sums)))
+        }
+    }
+}
+
+impl Wide<__m512d> {
+    #[inline(always)]
+    fn halves(self) -> Pair<__m256d> {
+        Pair(unsafe { _mm512_castpd512_pd256(self.0) }, unsafe {
+            _mm512_extractf64x4_pd::<1>(self.0)
+        })
+    }
+
+    /// Halves added to halves: four numbers of `x`, then four of `y`.
+    #[inline(always)]
+    fn fours(x: Self, y: Self) -> Self {
+        unsafe {
+            let low = _mm512_shuffle_f64x2::<0x44>(x.0, y.0);
+            Self(_mm512_add_pd(low, _mm512_shuffle_f64x2::<0xEE>(x.0, y.0)))
+        }
+    }
+
+    /// The sums of neighbours, one of `self` and one of `other` in turn.
+    #[inline(always)]
+    fn pairs(self, other: Self) -> Self {
+        unsafe {
+            let first = _mm512_unpacklo_pd(self.0, other.0);
+            Self(_mm512_add_pd(first, _mm512_unpackhi_pd(self.0, other.0)))
+        }
+    }
+}
+
+impl Wide<__m512> {
+    #[inline(always)]
+    fn halves(self) -> Pair<__m256> {
+        Pair(unsafe { _mm512_castps512_ps256(self.0) }, unsafe {
+            _mm512_extractf32x8_ps::<1>(self.0)
+        })
+    }
+
+    /// Halves added to halves: eight numbers of `x`, then eight of `y`.
+    #[inline(always)]
+    fn eights(x: Self, y: Self) -> Self {
+        unsafe {
+            let low = _mm512_shuffle_f32x4::<0x44>(x.0, y.0);
+            Self(_mm512_add_ps(low, _mm512_shuffle_f32x4::<0xEE>(x.0, y.0)))
+        }
+    }
+
+    /// The quarters of both, each second one added to the one before it.
+    #[inline(always)]
+    fn fours(self, other: Self) -> Self {
+        unsafe {
+            let first = _mm512_shuffle_f32x4::<0x88>(self.0, other.0);
+            Self(_mm512_add_ps(first, _mm512_shuffle_f32x4::<0xDD>(self.0, other.0)))
+        }
     }
 }

@@ -22,7 +22,8 @@
 use super::bierman::{above_floor, largest_of, Chain};
 use super::layout::BLOCK;
 use super::tiles::{
-    beyond, block, block_mut, dots_beside, eight, put_eight, turn_columns, PerColumn, Turn,
+    block, block_mut, dots_beside, load_eight, padding_d, store_eight, turn_columns, PerColumn,
+    Turn,
 };
 use crate::kernel::measured::Measured;
 use crate::number::eight::Eight;
@@ -83,17 +84,20 @@ impl<'a, T: Real> Room<'a, T> {
         let mut leverages = [V::Eight::splat(T::ZERO); BATCH];
         for (b, (d, changes)) in self.d.iter_mut().zip(&mut *self.changes).enumerate() {
             if done {
-                put_eight(diagonal, b, d);
-                let turns = changes.each_ref().map(turn);
+                store_eight(diagonal, b, V::Eight::read(d));
+                let mut turns = [turn(&changes[0]); BATCH];
+                for l in 1..BATCH {
+                    turns[l] = turn(&changes[l]);
+                }
                 turn_columns::<T, V, _, GROUP, BATCH>((block_mut(columns, b), b), self.k, &turns);
             }
             if next {
-                *d = eight(diagonal, b, beyond());
+                let own = load_eight::<T, V::Eight>(diagonal, b, padding_d());
+                own.write(d);
                 let w = dots_beside::<T, V, GROUP, BATCH>(block(columns, b), self.f);
                 for l in 0..BATCH {
-                    changes[l][W_THEN_SLOPE] = w[l];
-                    let (d, w) = (V::Eight::read(d), V::Eight::read(&w[l]));
-                    leverages[l] = (d * w).mul_add(w, leverages[l]);
+                    w[l].write(&mut changes[l][W_THEN_SLOPE]);
+                    leverages[l] = (own * w[l]).mul_add(w[l], leverages[l]);
                 }
             }
         }

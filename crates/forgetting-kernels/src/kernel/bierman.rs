@@ -15,8 +15,8 @@
 
 use super::layout::BLOCK;
 use super::tiles::{
-    beyond, block, block_mut, dots, eight, put_eight, turn_columns, Long, LongMut, PerColumn, Tile,
-    Turn,
+    block, block_mut, dots, load_eight, padding_d, store_eight, turn_columns, Long, LongMut,
+    PerColumn, Tile, Turn,
 };
 use crate::kernel::measured::Measured;
 use crate::number::eight::Eight;
@@ -30,13 +30,18 @@ pub struct Pass<E> {
     pub d: E,
     pub slope: E,
     pub v: E,
-    /// after each column
-    pub a: E,
+    /// 1/a after each column
+    pub inverse: E,
 }
 
-/// What passes from column to column: s = a − 1, in all lanes.
+/// What passes from column to column, in all lanes.
 #[derive(Clone, Copy)]
-pub struct Chain<E>(E);
+pub struct Chain<E> {
+    /// a − 1
+    s: E,
+    /// 1/a
+    inverse: E,
+}
 
 impl<E> Chain<E> {
     #[inline(always)]
@@ -44,26 +49,27 @@ impl<E> Chain<E> {
     where
         E: Eight<T>,
     {
-        Self(E::splat(T::ZERO))
+        Self { s: E::splat(T::ZERO), inverse: E::splat(T::ONE) }
     }
 
     /// Goes through the columns of a block.
     ///
-    /// Only the sum s passes from block to block; all else is done for all columns side by side.
+    /// Only s and 1/a pass from block to block; all else is done for all columns side by side, with
+    /// one division.
     #[inline(always)]
     pub fn pass<T: Real>(&mut self, d: E, w: E) -> Pass<E>
     where
         E: Eight<T>,
     {
-        let (v, first) = (d * w, E::splat(T::ONE) + self.0);
+        let (v, one, first) = (d * w, E::splat(T::ONE), E::splat(T::ONE) + self.s);
         let sums = (w * v).running_sums();
         let a = first + sums;
-        let before = a.before(first);
-        let slope = -w / before;
+        let inverse = one / a;
+        let slope = -w * inverse.before(self.inverse);
         // the ratio first: D may be as large as a number gets, and a as the square of one
-        let d = d * (before / a);
-        self.0 = (self.0 + sums).last();
-        Pass { d, slope, v, a }
+        let d = d * (a.before(first) * inverse);
+        (self.s, self.inverse) = ((self.s + sums).last(), inverse.last());
+        Pass { d, slope, v, inverse }
     }
 
     /// At the end, with the largest element of D.
@@ -72,7 +78,7 @@ impl<E> Chain<E> {
     where
         E: Eight<T>,
     {
-        let (leverage, one) = (self.0.numbers()[0], T::ONE);
+        let (leverage, one) = (self.s.numbers()[0], T::ONE);
         let variance = one + leverage;
         Measured { leverage, variance, inverse_variance: one / variance, largest, forgot }
     }
@@ -109,13 +115,15 @@ pub fn above_floor<T: Real, E: Eight<T>>(less_least: E) -> bool {
 /// A column of U may be as long as D is small: lifting D alone would add to P whatever the floor is
 /// times the square of that length. So the column becomes √(D/floor) of what it is.
 #[inline(always)]
-pub fn settle<T: Real>(block: &mut [Tile<T>], (diagonal, b): (&mut [T], usize), d: &PerColumn<T>) {
-    let least = d.iter().fold(T::CEILING, |least, &d| least.min(d));
-    if least >= T::FLOOR {
-        put_eight(diagonal, b, d);
-    } else {
-        put_eight(diagonal, b, &lift(block, b, d));
+pub fn settle<T: Real, E: Eight<T>>(
+    block: &mut [Tile<T>],
+    (diagonal, b): (&mut [T], usize),
+    mut d: E,
+) {
+    if !E::all(E::splat(T::FLOOR).at_most(d)) {
+        d = E::read(&lift(block, b, &d.numbers()));
     }
+    store_eight(diagonal, b, d);
 }
 
 #[cold]
@@ -141,22 +149,22 @@ pub fn scale_and_measure<T: Real, V: Vector<T>, const GROUP: usize>(
     f: &[T],
     k: &mut [T],
 ) -> Chain<V::Eight> {
-    let (f, mut k, blocks) = (Long::new(f), [LongMut::new(k)], diagonal.len().div_ceil(BLOCK));
+    let (f, mut k, blocks) = (Long::new(f), LongMut::new(k), diagonal.len().div_ceil(BLOCK));
     let (mut chain, growth) = (Chain::start(), V::Eight::splat(growth));
     let mut ahead = dots::<T, V, GROUP>(block(columns, 0), &f);
     for b in 0..blocks {
-        let w = V::Eight::read(&ahead);
+        let w = ahead;
         if b + 1 < blocks {
             // needs nothing of this block: the machine does both at once
             ahead = dots::<T, V, GROUP>(block(columns, b + 1), &f);
         }
-        let d = V::Eight::read(&eight(diagonal, b, beyond())) * growth;
+        let d = load_eight::<T, V::Eight>(diagonal, b, padding_d()) * growth;
         let Pass { d, slope, v, .. } = chain.pass(d, w);
         let turn = Turn { slope: &slope.numbers(), factor: &v.numbers() };
         let block = block_mut(columns, b);
         turn_columns::<T, V, _, GROUP, 1>((block, b), &mut k, &[turn]);
-        settle(block, (diagonal, b), &d.numbers());
+        settle(block, (diagonal, b), d);
     }
-    k.into_iter().for_each(LongMut::finish);
+    k.finish();
     chain
 }

@@ -182,7 +182,10 @@ fn along_many<T: Real, V: Vector<T>, const GROUP: usize>(
     let (gain, scratch) = place.scratch.split_at_mut(n.div_ceil(T::ROWS) * T::ROWS);
     let mut room = Room::<T, 1, 2>::of(scratch, n);
     for (t, [to]) in room.f.iter_mut().enumerate() {
-        *to = full.get(t).copied().unwrap_or_else(|| T::chunk(rest));
+        *to = match full.get(t) {
+            Some(chunk) => *chunk,
+            None => T::chunk(rest),
+        };
     }
     room.look::<V, GROUP>(place.columns, place.diagonal);
     let information = room.information::<V::Eight, 0>();
@@ -191,7 +194,7 @@ fn along_many<T: Real, V: Vector<T>, const GROUP: usize>(
         return Some(None);
     }
     make_room(place.bound, T::ONE, c * squares)?;
-    let measured = room.add_and_measure::<V::Eight, 0>(information / weight).0;
+    let measured = room.add_and_measure::<V::Eight, 0>(information / weight, information).0;
     room.carry_out::<V, GROUP>(place.columns, place.diagonal);
     for (t, to) in T::chunks_mut(gain).0.iter_mut().enumerate() {
         *to = *room.gain(0, t);

@@ -1,7 +1,7 @@
 //! Samples that arrive together, and what they do to θ.
 
 use crate::number::vector::Vector;
-use crate::number::Real;
+use crate::number::{copy_first, Real};
 
 /// Puts the n numbers of each sample, which come one after the other at the beginning of `phi`, side
 /// by side in `f`, and zeros after them; returns ‖φ‖² of each.
@@ -15,9 +15,9 @@ pub fn arrive<T: Real, V: Vector<T>, const S: usize>(
     let mut squares = [V::splat(T::ZERO); S];
     for (t, f) in f[..full].iter_mut().enumerate() {
         for l in 0..S {
-            f[l] = T::chunks(&phi[l * n + t * T::ROWS..]).0[0];
-            let f = V::load(&f[l]);
-            squares[l] = f.mul_add(f, squares[l]);
+            let lanes = V::load(&T::chunks(&phi[l * n + t * T::ROWS..]).0[0]);
+            lanes.store(&mut f[l]);
+            squares[l] = lanes.mul_add(lanes, squares[l]);
         }
     }
     if rest > 0 {
@@ -58,21 +58,32 @@ pub fn correct<'a, T: Real, V: Vector<T>, const S: usize>(
     gain: impl Fn(usize, usize) -> &'a T::Chunk,
     thetas: &mut [T],
 ) {
-    let (n, steps) = (theta.len(), steps.map(V::splat));
-    let (chunks, rest) = T::chunks_mut(theta);
+    let (n, mut factors) = (theta.len(), [V::splat(T::ZERO); S]);
+    for l in 0..S {
+        factors[l] = V::splat(steps[l]);
+    }
+    let (full, rest) = T::chunks_mut(theta);
     let mut last = T::chunk(rest);
     for t in 0..n.div_ceil(T::ROWS) {
-        let chunk = chunks.get_mut(t).unwrap_or(&mut last);
+        let chunk = match full.get_mut(t) {
+            Some(chunk) => chunk,
+            None => &mut last,
+        };
         let mut now = V::load(chunk);
         for l in 0..S {
-            now = steps[l].mul_add(V::load(gain(l, t)), now);
+            now = factors[l].mul_add(V::load(gain(l, t)), now);
             if !thetas.is_empty() {
-                now.store(chunk);
                 let after = &mut thetas[l * n + t * T::ROWS..(l + 1) * n];
-                after.iter_mut().zip(chunk.as_ref()).for_each(|(to, &x)| *to = x);
+                match T::chunks_mut(after).0.first_mut() {
+                    Some(after) => now.store(after),
+                    None => {
+                        now.store(chunk);
+                        copy_first(after, chunk.as_ref());
+                    }
+                }
             }
         }
         now.store(chunk);
     }
-    rest.iter_mut().zip(last.as_ref()).for_each(|(to, &x)| *to = x);
+    copy_first(rest, last.as_ref());
 }

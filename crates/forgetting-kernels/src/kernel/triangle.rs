@@ -5,9 +5,11 @@
 use super::layout::{BLOCK, FEW};
 use super::registers::Small;
 use super::tiles::{
-    add_columns, block, dots, eight, put_eight, triangle, Long, LongMut, PerColumn, Tile,
+    add_columns, block, dots, load_eight, store_eight, triangle, Long, LongMut, PerColumn, Tile,
 };
 use crate::kernel::dispatch::Kernel;
+use crate::number::eight::Eight;
+use crate::number::lane::Lane;
 use crate::number::vector::Vector;
 use crate::number::Real;
 
@@ -48,14 +50,13 @@ pub fn leverage_of<T: Real, V: Vector<T>, const GROUP: usize>(
     diagonal: &[T],
     f: &[T],
 ) -> T {
-    let (long, mut sum) = (Long::new(f), T::ZERO);
+    let (long, mut sum) = (Long::new(f), V::Eight::splat(T::ZERO));
     for b in 0..f.len().div_ceil(BLOCK) {
-        let (w, d) = (dots::<T, V, GROUP>(block(columns, b), &long), eight(diagonal, b, T::ZERO));
-        for c in 0..BLOCK {
-            sum = (d[c] * w[c]).mul_add(w[c], sum);
-        }
+        let w = dots::<T, V, GROUP>(block(columns, b), &long);
+        let d = load_eight::<T, V::Eight>(diagonal, b, T::ZERO);
+        sum = (d * w).mul_add(w, sum);
     }
-    sum
+    sum.running_sums().last().numbers()[0]
 }
 
 #[inline(always)]
@@ -90,7 +91,7 @@ impl<T: Real> Kernel<T> for MultiplyTransposed<'_, T> {
         }
         for b in (0..x.len().div_ceil(BLOCK)).rev() {
             let w = dots::<T, V, GROUP>(block(columns, b), &Long::new(x));
-            put_eight(x, b, &w);
+            store_eight(x, b, w);
         }
     }
 }
@@ -134,7 +135,10 @@ impl<T: Real> Kernel<T> for Solve<'_, T> {
         for b in (0..blocks).rev() {
             let block = block(columns, b);
             let solved = solve_triangle(block, b, x.eight(b));
-            let factors = solved.map(|x| -x);
+            let mut factors = solved;
+            for c in 0..BLOCK {
+                factors[c] = -factors[c];
+            }
             add_columns::<T, V>(block, &mut x, &factors);
             *x.eight(b) = solved;
         }

@@ -86,6 +86,19 @@ pub fn add_scaled_by<T: Real, V: Vector<T>>(y: &mut [T], c: T, x: &[T]) {
     }
 }
 
+/// Copies as many numbers as both have.
+// not `copy_from_slice`: that is a call, for which all registers are put away
+#[inline(always)]
+pub fn copy<T: Real, V: Vector<T>>(from: &[T], to: &mut [T]) {
+    let ((from, from_rest), (to, to_rest)) = (T::chunks(from), T::chunks_mut(to));
+    for (from, to) in from.iter().zip(to) {
+        V::load(from).store(to);
+    }
+    for (&from, to) in from_rest.iter().zip(to_rest) {
+        *to = from;
+    }
+}
+
 /// φ·θ and φ·φ, with φ copied on the way: what the arrival of a sample needs.
 pub struct Arrive<'a, T> {
     /// the regressors
@@ -106,7 +119,7 @@ impl<T: Real> Kernel<T> for Arrive<'_, T> {
 
     #[inline(always)]
     fn run<V: Vector<T>, const GROUP: usize>(self) -> (T, T) {
-        self.copy.copy_from_slice(self.phi);
+        copy::<T, V>(self.phi, self.copy);
         // wide vectors are for many: without this they would be compiled for few, too
         if GROUP < 8 && self.phi.len() <= FEW {
             with_few!(self.phi.len(), few::<T>(self.phi, self.theta))

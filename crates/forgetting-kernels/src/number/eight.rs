@@ -6,9 +6,9 @@ use crate::number::Real;
 
 /// Eight numbers: what passes from column to column is done for all eight side by side.
 pub trait Eight<T: Real>: Lane<T> {
-    /// These.
+    /// Loads `numbers`.
     fn read(numbers: &[T; 8]) -> Self;
-    /// Writes them.
+    /// Stores into `numbers`.
     fn write(self, numbers: &mut [T; 8]);
     /// The sums of the first one, two, … of them, none of more than three additions: pairs, then
     /// pairs of pairs, then the two halves.

@@ -1,6 +1,8 @@
 //! The arithmetic of the recursions: on one number, or on one number of each of several streams
 //! side by side.
 
+#![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
+
 use crate::number::Real;
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -43,12 +45,40 @@ pub trait Lane<T>:
     fn all(mask: Self::Mask) -> bool;
     /// `yes` where `mask` says so, `no` elsewhere.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+
+    /// Each of `numbers` in every lane.
+    // a loop, as every place that holds vectors: what `map` calls is compiled without their
+    // instructions
+    #[inline(always)]
+    fn splat_each<const N: usize>(numbers: &[T; N]) -> [Self; N]
+    where
+        T: Copy,
+    {
+        let mut lanes = [Self::splat(numbers[0]); N];
+        for i in 1..N {
+            lanes[i] = Self::splat(numbers[i]);
+        }
+        lanes
+    }
 }
 
 /// One number, in whatever form a machine works fastest with one.
 pub trait One<T>: Lane<T> {
     /// The number itself.
     fn get(self) -> T;
+
+    /// Each of `numbers` itself.
+    #[inline(always)]
+    fn get_each<const N: usize>(numbers: &[Self; N]) -> [T; N]
+    where
+        T: Copy,
+    {
+        let mut each = [numbers[0].get(); N];
+        for i in 1..N {
+            each[i] = numbers[i].get();
+        }
+        each
+    }
 }
 
 impl<T: Real> One<T> for T {

@@ -2,6 +2,7 @@
 
 pub mod eight;
 pub mod lane;
+pub mod sums;
 pub mod vector;
 
 use crate::number::vector::{Lanes, Vector};
@@ -106,6 +107,18 @@ pub fn copy_some<T: Copy, const L: usize>(to: &mut [T; L], from: &[T]) {
     for (i, to) in to.iter_mut().enumerate() {
         if i < from.len() {
             *to = from[i];
+        }
+    }
+}
+
+/// Copies the first of `from`, as many as there is room for; `from` is of constant length.
+///
+/// One by one, as [`copy_some`].
+#[inline(always)]
+pub fn copy_first<T: Copy>(to: &mut [T], from: &[T]) {
+    for (i, &x) in from.iter().enumerate() {
+        if i < to.len() {
+            to[i] = x;
         }
     }
 }

@@ -1,28 +1,25 @@
 //! Neighbouring numbers that go through the same operations together.
 
-use crate::number::eight::Eight;
 use crate::number::lane::{Lane, One};
+use crate::number::sums::Sums;
 use crate::number::Real;
-use core::array;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A chunk of numbers ([`Real::Chunk`]) in vector registers.
 ///
 /// A number type has one for every set of instructions that it may run on; all give the same
 /// bits.
-pub trait Vector<T: Real>: Lane<T> {
+pub trait Vector<T: Real>: Sums<T> {
     /// A single number, as this set of instructions works fastest with one.
     type One: One<T>;
     /// What the streams of a fleet run in.
     type Abreast: Abreast<T>;
-    /// A number for each column of a block.
-    type Eight: Eight<T>;
 
     /// The numbers of `chunk`.
     fn load(chunk: &T::Chunk) -> Self;
     /// Writes all lanes to `chunk`.
     fn store(self, chunk: &mut T::Chunk);
-    /// So many lanes from the first on, and zeros.
+    /// The first `count` lanes, zeros in the rest.
     #[inline(always)]
     fn first(self, count: usize) -> Self {
         let mut position = T::chunk(&[]);
@@ -32,21 +29,10 @@ pub trait Vector<T: Real>: Lane<T> {
         let within = Self::load(&position).less_than(Self::splat(T::from_f64(count as f64)));
         Self::select(within, self, Self::splat(T::ZERO))
     }
-    /// The sum of all lanes: halves added to halves down to four, then pairs.
-    fn sum(self) -> T;
-    /// The sum of each of `C` vectors.
-    #[inline(always)]
-    fn sums<const C: usize>(vectors: [Self; C]) -> [T; C] {
-        let mut sums = [T::ZERO; C];
-        for c in 0..C {
-            sums[c] = vectors[c].sum();
-        }
-        sums
-    }
 }
 
-/// A number of each of a few streams, in as few registers as there are: long recursions need the
-/// others for their own numbers.
+/// One number of each of COUNT streams in one register. Narrower than [`Vector`], so that a long
+/// recursion has registers left for its own values.
 pub trait Abreast<T: Real>: Lane<T> {
     /// How many streams, at most those of a chunk.
     const COUNT: usize;
@@ -98,11 +84,23 @@ macro_rules! lane_by_lane {
 }
 lane_by_lane! { Add add; Sub sub; Mul mul; Div div; }
 
+/// What is done to each lane `i`, written where the closure of a `map` would be: that is compiled
+/// without the vector instructions.
+macro_rules! each {
+    ($L:ident, $i:ident: $first:expr, $of_each:expr) => {{
+        let mut lanes = [$first; $L];
+        for $i in 0..$L {
+            lanes[$i] = $of_each;
+        }
+        lanes
+    }};
+}
+
 impl<T: Real, const L: usize> Neg for Lanes<T, L> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Self(self.0.map(Neg::neg))
+        Self(each!(L, i: T::ZERO, -self.0[i]))
     }
 }
 
@@ -114,54 +112,54 @@ impl<T: Real, const L: usize> Lane<T> for Lanes<T, L> {
         Self([x; L])
     }
     #[inline(always)]
-    fn mul_add(mut self, factor: Self, term: Self) -> Self {
-        for lane in 0..L {
-            self.0[lane] = Real::mul_add(self.0[lane], factor.0[lane], term.0[lane]);
-        }
-        self
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        Self(each!(L, i: T::ZERO, Real::mul_add(self.0[i], factor.0[i], term.0[i])))
     }
     #[inline(always)]
     fn max(self, other: Self) -> Self {
-        Self(array::from_fn(|lane| Real::max(self.0[lane], other.0[lane])))
+        Self(each!(L, i: T::ZERO, Real::max(self.0[i], other.0[i])))
     }
     #[inline(always)]
     fn min(self, other: Self) -> Self {
-        Self(array::from_fn(|lane| Real::min(self.0[lane], other.0[lane])))
+        Self(each!(L, i: T::ZERO, Real::min(self.0[i], other.0[i])))
     }
     #[inline(always)]
     fn abs(self) -> Self {
-        Self(self.0.map(Real::abs))
+        Self(each!(L, i: T::ZERO, Real::abs(self.0[i])))
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
-        Self(self.0.map(Real::sqrt))
+        Self(each!(L, i: T::ZERO, Real::sqrt(self.0[i])))
     }
     #[inline(always)]
     fn at_most(self, limit: Self) -> [bool; L] {
-        array::from_fn(|lane| self.0[lane] <= limit.0[lane])
+        each!(L, i: false, self.0[i] <= limit.0[i])
     }
     #[inline(always)]
     fn less_than(self, limit: Self) -> [bool; L] {
-        array::from_fn(|lane| self.0[lane] < limit.0[lane])
+        each!(L, i: false, self.0[i] < limit.0[i])
     }
     #[inline(always)]
     fn both(a: [bool; L], b: [bool; L]) -> [bool; L] {
-        array::from_fn(|lane| a[lane] & b[lane])
+        each!(L, i: false, a[i] & b[i])
     }
     #[inline(always)]
     fn all(mask: [bool; L]) -> bool {
-        mask.iter().fold(true, |all, &lane| all & lane)
+        let mut all = true;
+        for lane in mask {
+            all &= lane;
+        }
+        all
     }
     #[inline(always)]
     fn select(mask: [bool; L], yes: Self, no: Self) -> Self {
-        Self(array::from_fn(|lane| T::select(mask[lane], yes.0[lane], no.0[lane])))
+        Self(each!(L, i: T::ZERO, T::select(mask[i], yes.0[i], no.0[i])))
     }
 }
 
 impl<T: Real<Chunk = [T; L]>, const L: usize> Vector<T> for Lanes<T, L> {
     type Abreast = T;
     type One = T;
-    type Eight = Lanes<T, 8>;
 
     #[inline(always)]
     fn load(chunk: &[T; L]) -> Self {
@@ -171,6 +169,12 @@ impl<T: Real<Chunk = [T; L]>, const L: usize> Vector<T> for Lanes<T, L> {
     fn store(self, chunk: &mut [T; L]) {
         *chunk = self.0;
     }
+}
+
+impl<T: Real, const L: usize> Sums<T> for Lanes<T, L> {
+    type Four = [T; 4];
+    type Eight = Lanes<T, 8>;
+
     #[inline(always)]
     fn sum(self) -> T {
         let mut lanes = self.0;
@@ -182,5 +186,17 @@ impl<T: Real<Chunk = [T; L]>, const L: usize> Vector<T> for Lanes<T, L> {
             }
         }
         (lanes[0] + lanes[1]) + (lanes[2] + lanes[3])
+    }
+    #[inline(always)]
+    fn four_sums([a, b, c, d]: [Self; 4]) -> [T; 4] {
+        [a.sum(), b.sum(), c.sum(), d.sum()]
+    }
+    #[inline(always)]
+    fn numbers(four: [T; 4]) -> [T; 4] {
+        four
+    }
+    #[inline(always)]
+    fn join([a, b, c, d]: [T; 4], [e, f, g, h]: [T; 4]) -> Lanes<T, 8> {
+        Lanes([a, b, c, d, e, f, g, h])
     }
 }

@@ -8,7 +8,7 @@
 //!
 //! ```text
 //! from the last block:   z, w, q = z / D;  fᵀP⁻¹f = Σ z q;  t_j = 1/c + Σ_{i>j} z_i q_i
-//! from the first:        D'_j = D_j + z_j² / t_j,  widening_j = q_j / (t_j + z_j q_j)
+//! from the first:        D'_j = D_j + z_j² / t_j,  widening_j = q_j / (t_j + z_j q_j) = q_j / t_{j−1}
 //!                        w'_j = w_j + widening_j p,  p ← p + z_j w_j                  (w' = U'ᵀf)
 //!                        u' = u + widening x,  x ← x + z u,  then Bierman with u' and w'
 //! ```
@@ -28,7 +28,10 @@ mod solve;
 
 use super::bierman::settle;
 use super::layout::BLOCK;
-use super::tiles::{beyond, block, block_mut, dots_beside, eight, turn_columns, PerColumn, Turn};
+use super::tiles::{
+    block, block_mut, dots_beside, load_eight, padding_d, turn_columns, PerColumn, Turn,
+};
+use crate::number::eight::Eight;
 use crate::number::vector::Vector;
 use crate::number::Real;
 use solve::solve;
@@ -92,13 +95,18 @@ impl<'a, T: Real, const B: usize, const R: usize> Room<'a, T, B, R> {
     #[inline(always)]
     pub fn look<V: Vector<T>, const GROUP: usize>(&mut self, columns: &[T], diagonal: &[T]) {
         for b in 0..self.of_all.len() {
-            self.of_all[b][D] = eight(diagonal, b, beyond());
+            let d = load_eight::<T, V::Eight>(diagonal, b, padding_d());
+            d.write(&mut self.of_all[b][D]);
             let w = dots_beside::<T, V, GROUP, B>(block(columns, b), self.f);
-            for (of_one, w) in self.of_one[b].iter_mut().zip(w) {
-                of_one[W] = w;
+            for l in 0..B {
+                w[l].write(&mut self.of_one[b][l][W]);
             }
         }
-        self.z.copy_from_slice(self.f);
+        for (z, f) in self.z.iter_mut().zip(&*self.f) {
+            for l in 0..B {
+                V::load(&f[l]).store(&mut z[l]);
+            }
+        }
         solve::<T, V, B>(columns, self.of_all.len(), self.z);
     }
 
@@ -110,16 +118,15 @@ impl<'a, T: Real, const B: usize, const R: usize> Room<'a, T, B, R> {
         diagonal: &mut [T],
     ) {
         for b in 0..self.of_all.len() {
-            let turns: [Turn<'_, T>; R] = core::array::from_fn(|r| {
-                let (l, own) = (r / 2, &self.of_one[b][r / 2]);
-                match r % 2 {
-                    0 => Turn { slope: &own[WIDENING], factor: z_of(self.z, l, b) },
-                    _ => Turn { slope: &own[SLOPE], factor: &own[V] },
-                }
-            });
+            let mut turns = [Turn { slope: &self.of_all[b][D], factor: &self.of_all[b][D] }; R];
+            for l in 0..B {
+                let own = &self.of_one[b][l];
+                turns[2 * l] = Turn { slope: &own[WIDENING], factor: z_of(self.z, l, b) };
+                turns[2 * l + 1] = Turn { slope: &own[SLOPE], factor: &own[V] };
+            }
             let block = block_mut(columns, b);
             turn_columns::<T, V, _, GROUP, R>((block, b), self.sums, &turns);
-            settle(block, (diagonal, b), &self.of_all[b][D]);
+            settle(block, (diagonal, b), V::Eight::read(&self.of_all[b][D]));
         }
     }
 

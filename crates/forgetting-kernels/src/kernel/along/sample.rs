@@ -46,11 +46,17 @@ impl<T: Real, const B: usize, const R: usize> Room<'_, T, B, R> {
         sum.numbers()[0]
     }
 
-    /// P ← P + c·fᵀf with t = 1/c, then P⁻¹ ← P⁻¹ + fᵀf, for sample L; f·k of the first sample, too,
+    /// P ← P + c·fᵀf with t = 1/c, f of this information in P⁻¹, then P⁻¹ ← P⁻¹ + fᵀf, for sample L; f·k of the first sample, too,
     /// and whether no D falls below its floor.
     #[inline(always)]
-    pub fn add_and_measure<E: Eight<T>, const L: usize>(&mut self, t: T) -> (Measured<T>, T, bool) {
-        let (t, zero) = (E::splat(t), E::splat(T::ZERO));
+    pub fn add_and_measure<E: Eight<T>, const L: usize>(
+        &mut self,
+        t: T,
+        information: T,
+    ) -> (Measured<T>, T, bool) {
+        // 1/t_j of the column before the first
+        let mut before = E::splat(T::ONE / (t + information));
+        let (t, zero, one) = (E::splat(t), E::splat(T::ZERO), E::splat(T::ONE));
         let (mut chain, mut p) = (Chain::start(), zero);
         let (mut most, mut less_least) = (zero, -E::splat(T::CEILING));
         let mut shared: Shared<E> = [zero; 2];
@@ -63,14 +69,15 @@ impl<T: Real, const B: usize, const R: usize> Room<'_, T, B, R> {
                 w = turn.turn_row(w, &mut shared[1]);
             }
             let (at, q) = (z_of(self.z, L, b), E::read(&all[Q]));
-            let (z, before) = (E::read(at), t + E::read(&all[LATER]));
-            let widening = q / z.mul_add(q, before);
-            let z_over_t = z / before;
+            let (z, inverse_t) = (E::read(at), one / (t + E::read(&all[LATER])));
+            // t_j + z_j q_j is that of the column before
+            (q * inverse_t.before(before)).write(&mut own[L][WIDENING]);
+            before = inverse_t.last();
+            let z_over_t = z * inverse_t;
             let d = z_over_t.mul_add(z, E::read(&all[D]));
-            widening.write(&mut own[L][WIDENING]);
             let turn = Turn { slope: &own[L][WIDENING], factor: at };
             w = turn.turn_row(w, &mut p);
-            let Pass { d, slope, v, a } = chain.pass(d, w);
+            let Pass { d, slope, v, inverse } = chain.pass(d, w);
             (most, less_least) = (most.max(d), less_least.max(-d));
             d.write(&mut all[D]);
             slope.write(&mut own[L][SLOPE]);
@@ -78,7 +85,7 @@ impl<T: Real, const B: usize, const R: usize> Room<'_, T, B, R> {
             if L + 1 < B {
                 z_over_t.write(&mut all[Z_OVER_T]);
                 w.write(&mut all[WIDENED]);
-                (v / a).write(&mut all[V_OVER_A]);
+                (v * inverse).write(&mut all[V_OVER_A]);
             }
         }
         let measured = chain.measured(largest_of(&most.numbers()), true);

@@ -75,8 +75,10 @@ fn add<T: Real, V: Vector<T>, const GROUP: usize>(
         let rows = if active - j >= GROUP { GROUP } else { 1 };
         let mut sums = [V::splat(T::ZERO); GROUP];
         if rows == GROUP {
-            let weights =
-                core::array::from_fn(|r| &turn[(j + r) * active + first..][..panel.len()]);
+            let mut weights = [&turn[..0]; GROUP];
+            for r in 0..GROUP {
+                weights[r] = &turn[(j + r) * active + first..][..panel.len()];
+            }
             tile::<T, V, GROUP>(weights, panel, &mut sums);
         } else {
             let mut one = [sums[0]];

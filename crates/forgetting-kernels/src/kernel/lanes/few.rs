@@ -2,7 +2,9 @@
 
 #![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
 
-use super::{accepts, adds, make_room, report, Abreast, Fate, Form, LaneOutcome, Line, Real};
+use super::{
+    accepts, adds, make_room, report, Abreast, Fate, Form, LaneOutcome, Line, Real, Trace,
+};
 use crate::kernel::lanes::storage::Layout;
 use crate::kernel::layout::FEW;
 use crate::kernel::registers::{Gain, Small, Unit};
@@ -64,14 +66,17 @@ impl<'a, T: Real, A: Abreast<T>, const N: usize> State<'a, T, A, N> {
         if A::all(used) {
             return None;
         }
-        let mut copy = [A::splat(T::ZERO); MOST];
-        for at in 0..Self::LAYOUT.length() {
+        // not zeros: to clear so many is a call, for which all registers are put away
+        let mut copy = [self.read(0); MOST];
+        for at in 1..Self::LAYOUT.length() {
             copy[at] = self.read(at);
         }
         Some(copy)
     }
+}
 
-    /// The trace of P, summed as the trace of a single factor is.
+impl<T: Real, A: Abreast<T>, const N: usize> Trace<A> for State<'_, T, A, N> {
+    /// Summed as the trace of a single factor is.
     #[inline(always)]
     fn trace(&self) -> A {
         let (zero, one) = (A::splat(T::ZERO), A::splat(T::ONE));
@@ -145,7 +150,7 @@ fn scale<T: Real, A: Abreast<T>, const N: usize>(
     let layout = const { Layout::new(N) };
     let bound = small.u.read(layout.bound());
     let room = (growth, A::splat(T::ZERO));
-    let (bound, used) = make_room(bound, room, accepted, || small.u.trace());
+    let (bound, used) = make_room(bound, room, accepted, &small.u);
     let before = small.u.copy_unless_all(used);
     let gain = small.scale_and_measure::<T, true>(growth, f);
     let outcome = correct(small, &gain, (bound, error), (before.as_ref(), used));
@@ -182,7 +187,7 @@ fn along<T: Real, A: Abreast<T>, const N: usize>(
     }
     let bound = small.u.read(layout.bound());
     let room = (one, c * squares);
-    let (bound, used) = make_room(bound, room, informed, || small.u.trace());
+    let (bound, used) = make_room(bound, room, informed, &small.u);
     small.u.read_again();
     let before = small.u.copy_unless_all(used);
     let silent = match before {

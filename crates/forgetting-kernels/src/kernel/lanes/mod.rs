@@ -68,23 +68,18 @@ fn few<T: Real, V: Vector<T>, const N: usize>(task: &mut Advance<'_, '_, '_, T>)
     for (block, rows) in regressors.enumerate() {
         let (lines, later) = rest.split_at_mut(length);
         // a block is long: without this, memory waits until it is done
-        for line in later.iter().skip((AHEAD - 1) * length).take(length) {
-            V::Abreast::prefetch(line);
+        if let Some(lines) = later.get((AHEAD - 1) * length..AHEAD * length) {
+            for line in lines {
+                V::Abreast::prefetch(line);
+            }
         }
         rest = later;
         let streams = block * lanes..block * lanes + rows.len();
         let strength = part.strengths[block.min(last)].0.as_ref();
         let y = rows::outputs(samples, streams.clone());
-        let filled;
-        let rows = if rows.len() == lanes {
-            rows
-        } else {
-            filled = rows::filled(rows);
-            &filled[..lanes]
-        };
         let mut report = report::Report::new();
         for lane in (0..lanes).step_by(V::Abreast::COUNT) {
-            let phi = rows::columns(&rows[lane..]);
+            let phi = rows::columns(rows, lane);
             let state = few::State::<T, V::Abreast, N>::of(lines, lane);
             let strength = V::Abreast::read(&strength[lane..]);
             let y = V::Abreast::read(&y.0.as_ref()[lane..]);
@@ -133,15 +128,19 @@ impl<T: Real> DeadZone<T> {
     }
 }
 
+/// A few streams, of which some may need a tighter bound of P's trace.
+trait Trace<A> {
+    /// The trace of P of each.
+    fn trace(&self) -> A;
+}
+
 /// The bound of P's trace after growing so, and where of `wanted` there is room for that.
-///
-/// `trace` is P's trace, for the streams that need a tighter bound.
 #[inline(always)]
 fn make_room<T: Real, A: Abreast<T>>(
     bound: A,
     (growth, added): (A, A),
     wanted: A::Mask,
-    trace: impl FnOnce() -> A,
+    streams: &impl Trace<A>,
 ) -> (A, A::Mask) {
     let ceiling = A::splat(T::CEILING);
     let next = bound * growth + added;
@@ -149,7 +148,7 @@ fn make_room<T: Real, A: Abreast<T>>(
     if A::all(room) {
         return (next, wanted);
     }
-    let next = A::select(room, next, trace() * growth + added);
+    let next = A::select(room, next, streams.trace() * growth + added);
     (next, A::both(wanted, next.less_than(ceiling)))
 }
 

@@ -4,7 +4,7 @@ use crate::kernel::dispatch::Kernel;
 use crate::kernel::lanes::storage::{Layout, Line};
 use crate::number::lane::Lane;
 use crate::number::vector::{Abreast, Vector};
-use crate::number::Real;
+use crate::number::{copy_first, Real};
 
 /// Writes φθ of each stream to `prediction`.
 pub struct Predict<'a, T: Real> {
@@ -46,7 +46,7 @@ impl<T: Real> Kernel<T> for Predict<'_, T> {
                 }
                 product.write(&mut products.0.as_mut()[lane..]);
             }
-            prediction.copy_from_slice(&products.0.as_ref()[..prediction.len()]);
+            copy_first(prediction, products.0.as_ref());
         }
     }
 }

@@ -1,6 +1,7 @@
 //! What a few streams told, written where it was asked for.
 
 use super::{Abreast, Fate, LaneOutcome, Line, Outputs, Real, DEAD_ZONE, MISSING, REFUSED};
+use crate::number::copy_first;
 use core::ops::Range;
 
 /// The outcome where not every stream used its sample; `silent` is the leverage of those in the
@@ -27,6 +28,9 @@ pub fn mixed<T: Real, A: Abreast<T>>(
         codes: Some(choose(code(0), code(DEAD_ZONE), refused)),
     }
 }
+
+/// The most streams of a block.
+const MOST: usize = 16;
 
 /// What a block of streams outputs.
 pub struct Report<T: Real> {
@@ -81,7 +85,7 @@ impl<T: Real> Report<T> {
         if let Some(skipped) = &mut outputs.skipped {
             let skipped = &mut skipped[streams];
             if self.all {
-                clear(skipped);
+                copy_first(skipped, &[0; MOST]);
             } else {
                 for (lane, code) in skipped.iter_mut().enumerate() {
                     *code = self.codes.get(lane).to_f64() as u8;
@@ -98,17 +102,6 @@ fn put<T: Real>(place: &mut [T], line: &Line<T>) {
     match T::chunks_mut(place).0 {
         // no loop and no call
         [chunk, ..] => *chunk = line.0,
-        [] => place.copy_from_slice(&line.0.as_ref()[..place.len()]),
-    }
-}
-
-#[inline(always)]
-fn clear(codes: &mut [u8]) {
-    let (eights, rest) = codes.as_chunks_mut::<8>();
-    for eight in eights {
-        *eight = [0; 8];
-    }
-    for code in rest {
-        *code = 0;
+        [] => copy_first(place, line.0.as_ref()),
     }
 }

@@ -6,24 +6,18 @@
 use super::{Abreast, Line, Real, Samples};
 use core::ops::Range;
 
-/// The most streams of a block.
-const MOST: usize = 16;
-
-/// The regressors of fewer streams than lanes, and zeros.
+/// The regressors of the streams from `lane` on as columns; zeros in the lanes that are over.
 #[inline(always)]
-pub fn filled<T: Real, const N: usize>(rows: &[[T; N]]) -> [[T; N]; MOST] {
-    let mut filled = [[T::ZERO; N]; MOST];
-    filled[..rows.len()].copy_from_slice(rows);
-    filled
-}
-
-/// The first rows as columns.
-#[inline(always)]
-pub fn columns<T: Real, A: Abreast<T>, const N: usize>(rows: &[[T; N]]) -> [A; N] {
-    let rows = &rows[..A::COUNT];
+pub fn columns<T: Real, A: Abreast<T>, const N: usize>(rows: &[[T; N]], lane: usize) -> [A; N] {
     let mut columns = [A::splat(T::ZERO); N];
-    for i in 0..N {
-        columns[i] = A::at(|lane| rows[lane][i]);
+    if let Some(rows) = rows.get(lane..lane + A::COUNT) {
+        for i in 0..N {
+            columns[i] = A::at(|lane| rows[lane][i]);
+        }
+    } else {
+        for i in 0..N {
+            columns[i] = A::at(|k| rows.get(lane + k).map_or(T::ZERO, |row| row[i]));
+        }
     }
     columns
 }

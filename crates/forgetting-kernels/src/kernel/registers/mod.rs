@@ -220,7 +220,11 @@ impl<A: Copy, const N: usize, U> Small<A, N, U> {
     where
         A: One<T>,
     {
-        self.d.iter().fold(A::splat(T::CEILING), |least, &d| least.min(d)).get()
+        let mut least = A::splat(T::CEILING);
+        for c in 0..N {
+            least = least.min(self.d[c]);
+        }
+        least.get()
     }
 }
 
@@ -237,7 +241,7 @@ impl<A: Copy, const N: usize> Small<A, N> {
                 u[c][i] = A::splat(columns[place::<T>(i, c)]);
             }
         }
-        Self { u, d: diagonal.map(A::splat) }
+        Self { u, d: A::splat_each(diagonal) }
     }
 
     /// Back to where it came from.
@@ -251,7 +255,7 @@ impl<A: Copy, const N: usize> Small<A, N> {
                 columns[place::<T>(i, c)] = self.u[c][i].get();
             }
         }
-        *diagonal = self.d.map(One::get);
+        *diagonal = A::get_each(&self.d);
     }
 }
 

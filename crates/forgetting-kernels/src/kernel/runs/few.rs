@@ -67,7 +67,7 @@ fn all<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const ALONG: bool>(
     task: &mut Steps<'_, T>,
     small: &mut Small<A, N, U>,
 ) -> Option<usize> {
-    let mut theta = task.theta.first_chunk::<N>()?.map(A::splat);
+    let mut theta = A::splat_each(task.theta.first_chunk::<N>()?);
     let (most, mut taken) = (task.told.len().min(task.y.len()), 0);
     while taken < most {
         match some::<T, A, U, N, ALONG>(task, taken, small, &mut theta) {
@@ -75,7 +75,7 @@ fn all<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const ALONG: bool>(
             took => taken += took,
         }
     }
-    *task.theta.first_chunk_mut()? = theta.map(One::get);
+    *task.theta.first_chunk_mut()? = A::get_each(&theta);
     Some(taken)
 }
 
@@ -92,7 +92,7 @@ fn some<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const ALONG: bool>(
     let samples = phi[at * N..].as_chunks::<N>().0.iter().zip(&y[at..]).zip(&mut told[at..]);
     let (mut least, mut taken) = (small.least(), 0);
     for ((f, &y), told) in samples {
-        let f = f.map(A::splat);
+        let f = A::splat_each(f);
         let (product, squares) = few_products(&f, theta);
         let (error, squares) = (y - product.get(), squares.get());
         if !accepts(error, squares) {
@@ -122,7 +122,7 @@ fn some<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const ALONG: bool>(
             *told = Outcome { error, leverage, largest, forgot, used: true, windup: false };
         }
         if let Some(after) = after.next() {
-            *after = theta.map(One::get);
+            *after = A::get_each(theta);
         }
         taken += 1;
     }
@@ -136,6 +136,6 @@ fn left_out<T: Real, A: One<T>, U: Unit<A, N>, const N: usize>(
     error: T,
     f: &[A; N],
 ) -> Outcome<T> {
-    let (leverage, d) = (small.leverage(f).get(), small.d.map(One::get));
+    let (leverage, d) = (small.leverage(f).get(), A::get_each(&small.d));
     Outcome { error, leverage, largest: largest(&d), forgot: false, used: false, windup: false }
 }

@@ -7,7 +7,7 @@ use super::super::measure::{adds, many as measure};
 use super::super::outcome::Outcome;
 use super::super::together::{arrive, correct, predict};
 use super::super::triangle::leverage_of;
-use super::super::vectors::{add_scaled_by, products};
+use super::super::vectors::{add_scaled_by, copy, products};
 use super::{accepts, Steps};
 use crate::kernel::dispatch::Kernel;
 use crate::kernel::form::Form;
@@ -83,7 +83,7 @@ fn single<T: Real, V: Vector<T>, const GROUP: usize>(
         add_scaled_by::<T, V>(theta, error * measured.inverse_variance, &place.scratch[..n]);
         told[at] = Outcome::used(error, &measured);
     }
-    task.keep(at);
+    keep::<T, V>(task, at);
     Some(())
 }
 
@@ -184,14 +184,16 @@ fn two<T: Real, V: Vector<T>, const GROUP: usize>(
     let added = more(weight, information, first)?;
     keeps_digits(leverage + added * second).then_some(())?;
     bound += added;
-    let (measured, _, above) = room.add_and_measure::<V::Eight, 0>(information / weight);
+    let (measured, _, above) =
+        room.add_and_measure::<V::Eight, 0>(information / weight, information);
     let error = y[0] - predicted[0];
     let step = error * measured.inverse_variance;
     (above && accepts(error, first)).then_some(())?;
 
     let information = room.information::<V::Eight, 1>();
     bound += more(weight, information, second)?;
-    let (after, shared, above) = room.add_and_measure::<V::Eight, 1>(information / weight);
+    let (after, shared, above) =
+        room.add_and_measure::<V::Eight, 1>(information / weight, information);
     let later = (-step).mul_add(shared, y[1] - predicted[1]);
     (above && accepts(later, second) && bound < T::CEILING).then_some(())?;
 
@@ -213,13 +215,11 @@ fn more<T: Real>(weight: T, information: T, squares: T) -> Option<T> {
     adds(c).then_some(c * squares)
 }
 
-impl<T: Real> Steps<'_, T> {
-    /// Keeps θ after a sample, if that was asked for.
-    #[inline(always)]
-    fn keep(&mut self, at: usize) {
-        let n = self.theta.len();
-        if let Some(after) = self.thetas.chunks_exact_mut(n).nth(at) {
-            after.copy_from_slice(self.theta);
-        }
+/// Keeps θ after a sample, if that was asked for.
+#[inline(always)]
+fn keep<T: Real, V: Vector<T>>(task: &mut Steps<'_, T>, at: usize) {
+    let n = task.theta.len();
+    if let Some(after) = task.thetas.get_mut(at * n..(at + 1) * n) {
+        copy::<T, V>(task.theta, after);
     }
 }

@@ -1,7 +1,7 @@
 //! A vector beside U, in chunks of as many numbers as a tile has rows.
 
 use super::{PerColumn, BLOCK};
-use crate::number::Real;
+use crate::number::{copy_first, Real};
 
 /// A vector to be read.
 #[derive(Clone, Copy)]
@@ -51,7 +51,16 @@ impl<'a, T: Real> LongMut<'a, T> {
 
     /// The chunk beside the tiles of row `t`.
     #[inline(always)]
-    pub fn chunk(&mut self, t: usize) -> &mut T::Chunk {
+    pub fn chunk(&self, t: usize) -> &T::Chunk {
+        match self.full.get(t) {
+            Some(chunk) => chunk,
+            None => &self.tail,
+        }
+    }
+
+    /// The same, to be written.
+    #[inline(always)]
+    pub fn chunk_mut(&mut self, t: usize) -> &mut T::Chunk {
         match self.full.get_mut(t) {
             Some(chunk) => chunk,
             None => &mut self.tail,
@@ -61,7 +70,8 @@ impl<'a, T: Real> LongMut<'a, T> {
     /// The numbers of block `b`.
     #[inline(always)]
     pub fn eight(&mut self, b: usize) -> &mut PerColumn<T> {
-        match self.chunk(b * BLOCK / T::ROWS).as_mut()[b * BLOCK % T::ROWS..].first_chunk_mut() {
+        match self.chunk_mut(b * BLOCK / T::ROWS).as_mut()[b * BLOCK % T::ROWS..].first_chunk_mut()
+        {
             Some(eight) => eight,
             None => unreachable!("a chunk holds whole blocks"),
         }
@@ -69,11 +79,6 @@ impl<'a, T: Real> LongMut<'a, T> {
 
     #[inline(always)]
     pub fn finish(self) {
-        // one by one: a copy of any length would be a call
-        for (i, &x) in self.tail.as_ref().iter().enumerate() {
-            if i < self.rest.len() {
-                self.rest[i] = x;
-            }
-        }
+        copy_first(self.rest, self.tail.as_ref());
     }
 }

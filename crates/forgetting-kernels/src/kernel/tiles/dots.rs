@@ -1,6 +1,7 @@
 //! Products of a vector with the columns of a block.
 
-use super::{Long, PerColumn, Tile, BLOCK};
+use super::{Long, Tile};
+use crate::number::lane::Lane;
 use crate::number::vector::Vector;
 use crate::number::Real;
 
@@ -9,16 +10,12 @@ use crate::number::Real;
 pub fn dots<T: Real, V: Vector<T>, const GROUP: usize>(
     block: &[Tile<T>],
     f: &Long<'_, T>,
-) -> PerColumn<T> {
-    let mut sums = [T::ZERO; BLOCK];
+) -> V::Eight {
     if GROUP >= 8 {
-        sums = V::sums(of_columns::<T, V, 8, 0>(block, f));
-    } else {
-        let (low, high) = sums.split_at_mut(4);
-        low.copy_from_slice(&V::sums(of_columns::<T, V, 4, 0>(block, f)));
-        high.copy_from_slice(&V::sums(of_columns::<T, V, 4, 4>(block, f)));
+        return V::eight_sums(of_columns::<T, V, 8, 0>(block, f));
     }
-    sums
+    let first = V::four_sums(of_columns::<T, V, 4, 0>(block, f));
+    V::join(first, V::four_sums(of_columns::<T, V, 4, 4>(block, f)))
 }
 
 /// The same for each of `S` vectors that lie side by side.
@@ -26,29 +23,48 @@ pub fn dots<T: Real, V: Vector<T>, const GROUP: usize>(
 pub fn dots_beside<T: Real, V: Vector<T>, const GROUP: usize, const S: usize>(
     block: &[Tile<T>],
     f: &[[T::Chunk; S]],
-) -> [PerColumn<T>; S] {
-    let mut dots = [[T::ZERO; BLOCK]; S];
+) -> [V::Eight; S] {
+    let mut dots = [V::Eight::splat(T::ZERO); S];
     for s in 0..S {
-        if GROUP >= 8 {
-            dots[s] = V::sums(beside::<T, V, 8, 0, S>(block, f, s));
-        } else {
-            let [a, b, c, d] = V::sums(beside::<T, V, 4, 0, S>(block, f, s));
-            let [e, f, g, h] = V::sums(beside::<T, V, 4, 4, S>(block, f, s));
-            dots[s] = [a, b, c, d, e, f, g, h];
+        if GROUP < 8 {
+            let [first] = beside::<T, V, 4, 0, S, 1>(block, f, s);
+            let [second] = beside::<T, V, 4, 4, S, 1>(block, f, s);
+            dots[s] = V::join(V::four_sums(first), V::four_sums(second));
+        } else if s + 1 == S && S % 2 == 1 {
+            let [sums] = beside::<T, V, 8, 0, S, 1>(block, f, s);
+            dots[s] = V::eight_sums(sums);
+        } else if s % 2 == 0 {
+            // a column in a register serves both
+            let [sums, next] = beside::<T, V, 8, 0, S, 2>(block, f, s);
+            (dots[s], dots[s + 1]) = (V::eight_sums(sums), V::eight_sums(next));
         }
     }
     dots
 }
 
+/// The terms of the sums for `W` of the vectors from `s` on.
 #[inline(always)]
-fn beside<T: Real, V: Vector<T>, const C: usize, const FIRST: usize, const S: usize>(
+fn beside<T, V, const C: usize, const FIRST: usize, const S: usize, const W: usize>(
     block: &[Tile<T>],
     f: &[[T::Chunk; S]],
     s: usize,
-) -> [V; C] {
-    let mut sums = [V::splat(T::ZERO); C];
+) -> [[V; C]; W]
+where
+    T: Real,
+    V: Vector<T>,
+{
+    let mut sums = [[V::splat(T::ZERO); C]; W];
     for (tile, f) in block.iter().zip(f) {
-        add_tile::<T, V, C, FIRST>(tile, &f[s], &mut sums);
+        let mut own = [V::splat(T::ZERO); W];
+        for w in 0..W {
+            own[w] = V::load(&f[s + w]);
+        }
+        for c in 0..C {
+            let u = V::load(&tile[FIRST + c]);
+            for w in 0..W {
+                sums[w][c] = u.mul_add(own[w], sums[w][c]);
+            }
+        }
     }
     sums
 }

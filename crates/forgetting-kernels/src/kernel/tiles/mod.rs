@@ -18,8 +18,9 @@ pub use eliminate::eliminate;
 pub use rank_one::{turn_columns, Turn};
 
 use super::layout::{tiles_of, BLOCK};
+use crate::number::eight::Eight;
 use crate::number::vector::Vector;
-use crate::number::{copy_some, Real};
+use crate::number::{copy_first, copy_some, Real};
 
 /// Eight columns of as many rows as a vector has numbers.
 pub type Tile<T> = [<T as Real>::Chunk; BLOCK];
@@ -52,39 +53,35 @@ pub fn triangle<T: Real>(block: &[Tile<T>], b: usize) -> [PerColumn<T>; BLOCK] {
     triangle
 }
 
-/// Those of `numbers` that belong to block `b`; `beyond` for columns that there are none of.
+/// Those of `numbers` that belong to block `b`; `padding` past the last of them.
+// read in each arm: an array that a `match` returns is copied number by number
 #[inline(always)]
-pub fn eight<T: Real>(numbers: &[T], b: usize, beyond: T) -> PerColumn<T> {
+pub fn load_eight<T: Real, E: Eight<T>>(numbers: &[T], b: usize, padding: T) -> E {
     let numbers = &numbers[b * BLOCK..];
     match numbers.first_chunk() {
-        Some(eight) => *eight,
+        Some(eight) => E::read(eight),
         None => {
-            let mut eight = [beyond; BLOCK];
+            let mut eight = [padding; BLOCK];
             copy_some(&mut eight, numbers);
-            eight
+            E::read(&eight)
         }
     }
 }
 
-/// D of columns that there are none of: with room for rounding above the floor.
+/// A stand-in for D past the last parameter: a little above the floor, so that rounding never lifts
+/// it.
 #[inline(always)]
-pub fn beyond<T: Real>() -> T {
+pub fn padding_d<T: Real>() -> T {
     T::FLOOR * T::from_f64(4.0)
 }
 
 /// Puts them back.
 #[inline(always)]
-pub fn put_eight<T: Real>(numbers: &mut [T], b: usize, eight: &PerColumn<T>) {
+pub fn store_eight<T: Real, E: Eight<T>>(numbers: &mut [T], b: usize, eight: E) {
     let numbers = &mut numbers[b * BLOCK..];
     match numbers.first_chunk_mut() {
-        Some(numbers) => *numbers = *eight,
-        None => {
-            for c in 0..BLOCK {
-                if c < numbers.len() {
-                    numbers[c] = eight[c];
-                }
-            }
-        }
+        Some(numbers) => eight.write(numbers),
+        None => copy_first(numbers, &eight.numbers()),
     }
 }
 

@@ -5,6 +5,7 @@ use super::{LongMut, PerColumn, Tile, BLOCK};
 use crate::number::eight::Eight;
 use crate::number::vector::Vector;
 use crate::number::Real;
+use core::ops::Range;
 
 /// What a rank-one change of P does to the columns of a block, from the left:
 /// u ← u + slope x and x ← x + factor u, each with the other of before.
@@ -30,20 +31,36 @@ impl<T: Real> Turn<'_, T> {
 /// The x of `R` changes.
 pub trait Xs<T: Real, const R: usize> {
     /// Beside the tiles of row `t`.
-    fn chunks(&mut self, t: usize) -> [&mut T::Chunk; R];
+    fn load<V: Vector<T>>(&self, t: usize) -> [V; R];
+    /// Puts them back.
+    fn store<V: Vector<T>>(&mut self, t: usize, xs: [V; R]);
 }
 
-impl<T: Real, const R: usize> Xs<T, R> for [LongMut<'_, T>; R] {
+impl<T: Real> Xs<T, 1> for LongMut<'_, T> {
     #[inline(always)]
-    fn chunks(&mut self, t: usize) -> [&mut T::Chunk; R] {
-        self.each_mut().map(|x| x.chunk(t))
+    fn load<V: Vector<T>>(&self, t: usize) -> [V; 1] {
+        [V::load(self.chunk(t))]
+    }
+    #[inline(always)]
+    fn store<V: Vector<T>>(&mut self, t: usize, [x]: [V; 1]) {
+        x.store(self.chunk_mut(t));
     }
 }
 
 impl<T: Real, const R: usize> Xs<T, R> for [[T::Chunk; R]] {
     #[inline(always)]
-    fn chunks(&mut self, t: usize) -> [&mut T::Chunk; R] {
-        self[t].each_mut()
+    fn load<V: Vector<T>>(&self, t: usize) -> [V; R] {
+        let mut xs = [V::splat(T::ZERO); R];
+        for r in 0..R {
+            xs[r] = V::load(&self[t][r]);
+        }
+        xs
+    }
+    #[inline(always)]
+    fn store<V: Vector<T>>(&mut self, t: usize, xs: [V; R]) {
+        for r in 0..R {
+            xs[r].store(&mut self[t][r]);
+        }
     }
 }
 
@@ -58,17 +75,25 @@ pub fn turn_columns<T, V, X, const GROUP: usize, const R: usize>(
     V: Vector<T>,
     X: Xs<T, R> + ?Sized,
 {
-    if GROUP >= 8 || R > 2 {
-        columns::<T, V, X, R, 8, 0>((block, b), xs, turns);
+    let all = block.len();
+    if GROUP >= 8 && R > 1 {
+        // a number in a register serves two tiles
+        let single = all % 2;
+        columns::<T, V, X, R, 8, 0, 1>((block, b), 0..single, xs, turns);
+        columns::<T, V, X, R, 8, 0, 2>((block, b), single..all, xs, turns);
+    } else if GROUP >= 8 || R > 2 {
+        columns::<T, V, X, R, 8, 0, 1>((block, b), 0..all, xs, turns);
     } else {
-        columns::<T, V, X, R, 4, 0>((block, b), xs, turns);
-        columns::<T, V, X, R, 4, 4>((block, b), xs, turns);
+        columns::<T, V, X, R, 4, 0, 1>((block, b), 0..all, xs, turns);
+        columns::<T, V, X, R, 4, 4, 1>((block, b), 0..all, xs, turns);
     }
 }
 
+/// `C` columns from `FIRST` on, in these tiles of block `b`, `W` at a time.
 #[inline(always)]
-fn columns<T, V, X, const R: usize, const C: usize, const FIRST: usize>(
+fn columns<T, V, X, const R: usize, const C: usize, const FIRST: usize, const W: usize>(
     (block, b): (&mut [Tile<T>], usize),
+    tiles: Range<usize>,
     xs: &mut X,
     turns: &[Turn<'_, T>; R],
 ) where
@@ -76,50 +101,47 @@ fn columns<T, V, X, const R: usize, const C: usize, const FIRST: usize>(
     V: Vector<T>,
     X: Xs<T, R> + ?Sized,
 {
-    let Some((last, above)) = block.split_last_mut() else { return };
-    for (t, tile) in above.iter_mut().enumerate() {
-        turn_tile::<T, V, R, C, FIRST>(tile, xs.chunks(t), turns, false);
-    }
     // the rows of the diagonal: before their first column x is 0, whatever the buffer holds
-    let fresh = FIRST == 0 && (b * BLOCK).is_multiple_of(T::ROWS);
-    turn_tile::<T, V, R, C, FIRST>(last, xs.chunks(above.len()), turns, fresh);
-}
-
-#[inline(always)]
-fn turn_tile<T: Real, V: Vector<T>, const R: usize, const C: usize, const FIRST: usize>(
-    tile: &mut Tile<T>,
-    xs: [&mut T::Chunk; R],
-    turns: &[Turn<'_, T>; R],
-    fresh: bool,
-) {
-    let mut x = [V::splat(T::ZERO); R];
-    if !fresh {
-        for r in 0..R {
-            x[r] = V::load(xs[r]);
+    let (last, fresh) = (block.len() - 1, FIRST == 0 && (b * BLOCK).is_multiple_of(T::ROWS));
+    let mut t = tiles.start;
+    for tiles in block[tiles].as_chunks_mut::<W>().0 {
+        let mut x = [[V::splat(T::ZERO); R]; W];
+        for w in 0..W {
+            if !(fresh && t + w == last) {
+                x[w] = xs.load(t + w);
+            }
         }
-    }
-    // in pairs: between two of them nothing changes its register
-    for c in (FIRST..FIRST + C).step_by(2) {
-        turn_column(&mut tile[c], &mut x, turns, c);
-        turn_column(&mut tile[c + 1], &mut x, turns, c + 1);
-    }
-    for (to, x) in xs.into_iter().zip(x) {
-        x.store(to);
+        for c in FIRST..FIRST + C {
+            turn_column(tiles, &mut x, turns, c);
+        }
+        for w in 0..W {
+            xs.store(t + w, x[w]);
+        }
+        t += W;
     }
 }
 
+/// Column c in `W` tiles.
 #[inline(always)]
-fn turn_column<T: Real, V: Vector<T>, const R: usize>(
-    column: &mut T::Chunk,
-    x: &mut [V; R],
+fn turn_column<T: Real, V: Vector<T>, const R: usize, const W: usize>(
+    tiles: &mut [Tile<T>; W],
+    x: &mut [[V; R]; W],
     turns: &[Turn<'_, T>; R],
     c: usize,
 ) {
-    let mut u = V::load(column);
-    for r in 0..R {
-        let before = u;
-        u = V::splat(turns[r].slope[c]).mul_add(x[r], u);
-        x[r] = V::splat(turns[r].factor[c]).mul_add(before, x[r]);
+    let mut u = [V::splat(T::ZERO); W];
+    for w in 0..W {
+        u[w] = V::load(&tiles[w][c]);
     }
-    u.store(column);
+    for r in 0..R {
+        let (slope, factor) = (V::splat(turns[r].slope[c]), V::splat(turns[r].factor[c]));
+        for w in 0..W {
+            let before = u[w];
+            u[w] = slope.mul_add(x[w][r], before);
+            x[w][r] = factor.mul_add(before, x[w][r]);
+        }
+    }
+    for w in 0..W {
+        u[w].store(&mut tiles[w][c]);
+    }
 }

@@ -51,8 +51,7 @@ pub struct Group<'a, T: Real, A, const C: usize> {
     lanes: PhantomData<A>,
 }
 
-#[inline(always)]
-fn none<'a, T: Real>() -> &'a mut [Line<T>] {
+const fn none<'a, T: Real>() -> &'a mut [Line<T>] {
     &mut []
 }
 
@@ -60,7 +59,7 @@ impl<'a, T: Real, A: Abreast<T>, const C: usize> Group<'a, T, A, C> {
     /// `lines` starts with them.
     #[inline(always)]
     pub fn of(mut lines: &'a mut [Line<T>], first: usize, lane: usize) -> Self {
-        let (mut rows, mut corner) = ([(); C].map(|()| none()), [(); C].map(|()| none()));
+        let (mut rows, mut corner) = ([const { none() }; C], [const { none() }; C]);
         for j in 0..C {
             let (column, rest) = lines.split_at_mut(first + j);
             (rows[j], corner[j]) = column.split_at_mut(first);

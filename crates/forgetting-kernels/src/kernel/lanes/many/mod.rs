@@ -2,7 +2,7 @@
 //! a few columns at a time.
 
 use super::{accepts, adds, make_room, report, rows, Abreast, Advance, Fate, Form, Line};
-use super::{LaneOutcome, Real};
+use super::{LaneOutcome, Real, Trace};
 use crate::kernel::lanes::storage::Layout;
 use chain::Measured;
 use core::marker::PhantomData;
@@ -66,6 +66,23 @@ fn write<T: Real, A: Abreast<T>>(line: &mut Line<T>, lane: usize, numbers: A) {
     numbers.write(&mut line.0.as_mut()[lane..]);
 }
 
+impl<T: Real, A: Abreast<T>> Trace<A> for Columns<'_, T, A> {
+    #[inline(always)]
+    fn trace(&self) -> A {
+        let (zero, one) = (A::splat(T::ZERO), A::splat(T::ONE));
+        let mut trace = zero;
+        for c in 0..self.n {
+            let mut squares = zero;
+            for i in 0..c {
+                let u: A = read(&self.u[Layout::new(self.n).column(c) + i], self.lane);
+                squares = u.mul_add(u, squares);
+            }
+            trace = trace + self.d(c) * (one + squares);
+        }
+        trace
+    }
+}
+
 impl<'a, T: Real, A: Abreast<T>> Columns<'a, T, A> {
     /// The streams of a block from `lane` on.
     #[inline(always)]
@@ -114,7 +131,7 @@ impl<'a, T: Real, A: Abreast<T>> Columns<'a, T, A> {
             }
         };
         let bound = read(self.bound, self.lane);
-        let (next, used) = make_room(bound, grown, informed, || self.trace());
+        let (next, used) = make_room(bound, grown, informed, self);
         write(self.bound, self.lane, A::select(used, next, bound));
         let (all, mut silent) = (A::all(used), error);
         if !all {
@@ -152,22 +169,6 @@ impl<'a, T: Real, A: Abreast<T>> Columns<'a, T, A> {
         (product, squares)
     }
 
-    /// The trace of P.
-    #[inline(always)]
-    fn trace(&self) -> A {
-        let (zero, one) = (A::splat(T::ZERO), A::splat(T::ONE));
-        let mut trace = zero;
-        for c in 0..self.n {
-            let mut squares = zero;
-            for i in 0..c {
-                let u: A = read(&self.u[Layout::new(self.n).column(c) + i], self.lane);
-                squares = u.mul_add(u, squares);
-            }
-            trace = trace + self.d(c) * (one + squares);
-        }
-        trace
-    }
-
     /// f·P·fᵀ, by way of [`Work::w`]
     #[inline(always)]
     fn leverage(&mut self, work: &mut Work<'_, T>) -> A {
@@ -197,7 +198,9 @@ impl<'a, T: Real, A: Abreast<T>> Columns<'a, T, A> {
     #[inline(always)]
     fn look(&mut self, work: &mut Work<'_, T>, weight: A) -> (A, A) {
         let (zero, one) = (A::splat(T::ZERO), A::splat(T::ONE));
-        work.z.copy_from_slice(work.f);
+        for i in 0..self.n {
+            put(work.z, i, get::<T, A>(work.f, i));
+        }
         let mut information = zero;
         in_groups_from_the_last!(self.eliminate(work));
         for c in (0..self.n).rev() {

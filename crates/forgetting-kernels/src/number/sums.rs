@@ -1,0 +1,46 @@
+//! Sums across the numbers of vectors.
+
+use crate::number::eight::Eight;
+use crate::number::lane::Lane;
+use crate::number::Real;
+
+/// A vector whose numbers can be added up, alone or side by side with others.
+///
+/// Every sum is taken in the same order: halves are added to halves until four numbers are left, then
+/// (first + second) + (third + fourth).
+pub trait Sums<T: Real>: Lane<T> {
+    /// a number for each of four vectors
+    type Four: Copy;
+    /// a number for each of eight, as for the columns of a block
+    type Eight: Eight<T>;
+
+    /// The sum of its numbers.
+    fn sum(self) -> T;
+    /// The sums of four vectors.
+    fn four_sums(vectors: [Self; 4]) -> Self::Four;
+    /// Four numbers, to memory.
+    fn numbers(four: Self::Four) -> [T; 4];
+    /// Four numbers and the four after them.
+    fn join(first: Self::Four, second: Self::Four) -> Self::Eight;
+
+    /// The sums of eight vectors.
+    #[inline(always)]
+    fn eight_sums([a, b, c, d, e, f, g, h]: [Self; 8]) -> Self::Eight {
+        Self::join(Self::four_sums([a, b, c, d]), Self::four_sums([e, f, g, h]))
+    }
+
+    /// The sums of `C` vectors, to memory.
+    #[inline(always)]
+    fn sums<const C: usize>(vectors: [Self; C]) -> [T; C] {
+        let mut sums = [T::ZERO; C];
+        let (fours, rest) = vectors.as_chunks::<4>();
+        let (sums_of_fours, sums_of_rest) = sums.as_chunks_mut::<4>();
+        for (sums, &four) in sums_of_fours.iter_mut().zip(fours) {
+            *sums = Self::numbers(Self::four_sums(four));
+        }
+        for (sum, vector) in sums_of_rest.iter_mut().zip(rest) {
+            *sum = vector.sum();
+        }
+        sums
+    }
+}
