@@ -3,9 +3,9 @@
 use crate::arrays::{shaped, Number};
 use crate::errors::{invalid, keep_exception};
 use crate::function::Callable;
+use forgetting::choice::{Kind, Parameter, Value};
 use forgetting::function::{EvidenceFunction, MatrixFunction};
 use forgetting::gates::{Answer, GateFunction};
-use forgetting::parameter::{Kind, Parameter, Value};
 use forgetting::rates::Function;
 use forgetting::rules::Forgetting;
 use forgetting::saved::AnyEstimator;

@@ -4,12 +4,12 @@ use crate::arrays::{with_slice, Array, Number};
 use crate::callable;
 use crate::choice::{shape_of, Choice};
 use crate::errors::{invalid, raise};
+use forgetting::choice::Parameter;
 use forgetting::gates::{AnyGate, GATES};
-use forgetting::parameter::Parameter;
 use forgetting::rates::{AnyRate, RATES};
 use forgetting::rules::{Rule, RULES};
 use forgetting::saved::AnyEstimator;
-use forgetting::weighting::{AnyWeighting, WEIGHTINGS};
+use forgetting::weightings::{AnyWeighting, WEIGHTINGS};
 use forgetting::{Dynamic, Error, Estimator, Memory, Prior};
 use pyo3::prelude::*;
 
@@ -81,7 +81,7 @@ fn read_gate<T: Number>(
 type RuleAndRate<T> = (Rule<Dynamic<T>>, AnyRate<Dynamic<T>>);
 
 /// The rule, and the rate that its `forgetting_factor` names.
-fn read_rule<T: Number>(
+pub fn read_rule<T: Number>(
     object: Option<Array<'_, '_>>,
     memory: Dynamic<T>,
 ) -> PyResult<RuleAndRate<T>> {

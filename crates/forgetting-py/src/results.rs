@@ -7,7 +7,7 @@ use forgetting::gates::Gate;
 use forgetting::rates::Rate;
 use forgetting::rules::Forgetting;
 use forgetting::saved::AnyEstimator;
-use forgetting::weighting::Weighting;
+use forgetting::weightings::Weighting;
 use forgetting::Memory;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat};
