@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import forgetting as fg
+from forgetting.choices import AXES, Axis
 from forgetting.papers import PAPERS, all_checks, all_pictures
 from forgetting.papers.errata.markdown import escaped, page
 from forgetting.papers.table import summary
@@ -17,15 +17,10 @@ def generate(docs: Path) -> None:
     """Write every generated page under `docs`."""
     write(docs / "errata.md", page())
     write(docs / "papers.md", claims())
-    for kind, entries in (
-        ("rules", fg.rules()),
-        ("rates", fg.rates()),
-        ("weightings", fg.weightings()),
-        ("gates", fg.gates()),
-    ):
-        for about in entries:
-            write(docs / kind / f"{about['name']}.md", choice(about, kind))
-        write(docs / kind / "index.md", overview(kind, entries))
+    for axis in AXES.values():
+        for about in axis.entries:
+            write(docs / axis.plural / f"{about['name']}.md", choice(about))
+        write(docs / axis.plural / "index.md", overview(axis))
     write(docs / "figures" / "README.rst", FIGURES)
     for each in all_pictures():
         write(docs / "figures" / f"plot_{each.name}.py", script(each))
@@ -38,7 +33,7 @@ def write(path: Path, text: str) -> None:
         path.write_text(text, encoding="utf-8")
 
 
-def choice(about: dict, kind: str) -> str:
+def choice(about: dict) -> str:
     """The page of a rule, rate, weighting or gate: its header, and how it is written."""
     rated = [("forgetting_factor", "0.99, or a [rate](../rates/index.md)")]
     first = rated if about.get("forgetting_factor") else []
@@ -57,38 +52,20 @@ def default(parameter: dict) -> str:
     return "none: must be given" if parameter["required"] else f"`{parameter['default']!r}`"
 
 
-ABOUT = {
-    "rules": (
-        "Forgetting rules",
-        "Where to forget: which directions of P. One page a rule, written from the head of the "
-        "file that implements it. [How to choose](../choosing.md) comes first.",
-    ),
-    "rates": (
-        "Rates",
-        "How much to forget: the λ of every sample. A number is the rate `constant`. A rate goes "
-        "in the place of the forgetting factor of any rule that takes one.",
-    ),
-    "weightings": ("Weightings", "How far to trust a sample: what Γ becomes."),
-    "gates": (
-        "Gates",
-        "Whether a sample is used: updated with, frozen (learned from, nothing forgotten) or held "
-        "(left alone). A gate stands before rule, rate and weighting.",
-    ),
-}
-
-
-def overview(kind: str, entries: list[dict]) -> str:
+def overview(axis: Axis) -> str:
     """The list of a registry."""
-    title, words = ABOUT[kind]
-    rows = [f"| [{e['name']}]({e['name']}.md) | {escaped(summary_of(e))} |" for e in entries]
-    names = "\n".join(e["name"] for e in entries)
+    rows = [f"| [{e['name']}]({e['name']}.md) | {escaped(e['summary'])} |" for e in axis.entries]
+    names = "\n".join(e["name"] for e in axis.entries)
     table = "\n".join(["| name | |", "|---|---|", *rows])
+    words = f"{axis.summary}\n\n{PAGES}"
+    title = axis.plural.capitalize()
     return f"# {title}\n\n{words}\n\n{table}\n\n```{{toctree}}\n:hidden:\n\n{names}\n```\n"
 
 
-def summary_of(about: dict) -> str:
-    """The first sentence of an entry."""
-    return about.get("summary") or about["header"].strip().splitlines()[0]
+PAGES = (
+    "One page each, written from the head of the file that implements it. "
+    "[How to choose](../choosing.md) comes first."
+)
 
 
 def claims() -> str:

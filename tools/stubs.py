@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from forgetting import choices
+from forgetting import choices, registry
 
 STUB = Path(__file__).parent.parent / "python" / "forgetting" / "registry.pyi"
 
@@ -25,7 +25,7 @@ from typing import Any, ClassVar, Literal
 from numpy.typing import ArrayLike
 
 from ._core import Evidence
-from .choices import ForgettingFactor, Gate, Rate, Rule, Weighting
+from .choices import {written}
 """
 
 TYPES = {
@@ -92,13 +92,27 @@ def stub_of(kind: type[choices.Choice]) -> Iterator[str]:
     yield from constructor(kind)
 
 
+def axis_of(axis: choices.Axis) -> Iterator[str]:
+    """The base class of an axis, unless it is written by hand, and its two functions."""
+    if axis.kind.__module__ != choices.__name__:
+        yield f'class {axis.kind.__name__}(Choice):\n    """{axis.summary}"""\n'
+    yield f"def {axis.name}(name: str, **parameters: Any) -> {axis.kind.__name__}: ..."
+    yield f"def {axis.plural}() -> list[dict[str, Any]]: ..."
+
+
 def stub() -> str:
     """The whole file."""
-    lines = [HEAD]
-    names = sorted(choices.CLASSES)
-    lines += ["__all__ = [", *(f'    "{name}",' for name in names), "]", ""]
-    for name in names:
-        lines += [*stub_of(choices.CLASSES[name]), ""]
+    axes = choices.AXES.values()
+    written = {axis.kind.__name__ for axis in axes if axis.kind.__module__ == choices.__name__}
+    made = len(written) < len(axes)
+    imported = sorted({"ForgettingFactor", *written, *({"Choice"} if made else ())})
+    lines = [HEAD.format(written=", ".join(imported))]
+    lines += ["__all__ = [", *(f'    "{name}",' for name in sorted(registry.__all__)), "]", ""]
+    for axis in axes:
+        lines += [*axis_of(axis), ""]
+    classes = {kind.__name__: kind for axis in axes for kind in axis.classes.values()}
+    for name in sorted(classes):
+        lines += [*stub_of(classes[name]), ""]
     return "\n".join(lines).rstrip() + "\n"
 
 

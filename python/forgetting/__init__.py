@@ -23,17 +23,12 @@ from ._core import (
     Run,
     Update,
     __version__,
-    gates,
-    rates,
-    rules,
-    weightings,
 )
-from .choices import Gate, Rate, Rule, Weighting, gate, rate, rule, weighting
 from .fleet import FleetHealth
 from .health import Health
 from .meter import ExcitationMeter
 from .models import ARX
-from .registry import *  # noqa: F403 (the classes of the registries)
+from .registry import *  # noqa: F403 (the axes and their registries)
 
 __all__ = [
     "ARX",
@@ -45,23 +40,11 @@ __all__ = [
     "Fleet",
     "FleetHealth",
     "FleetUpdate",
-    "Gate",
     "Health",
     "InvalidInput",
     "NumericalRange",
-    "Rate",
-    "Rule",
     "Run",
     "Update",
-    "Weighting",
     "__version__",
-    "gate",
-    "gates",
-    "rate",
-    "rates",
-    "rule",
-    "rules",
-    "weighting",
-    "weightings",
 ]
 __all__ += registry.__all__

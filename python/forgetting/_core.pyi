@@ -24,10 +24,8 @@ __all__ = [
     "Run",
     "Update",
     "__version__",
-    "gates",
-    "rates",
-    "rules",
-    "weightings",
+    "axes",
+    "bounds",
 ]
 
 __version__: str
@@ -252,7 +250,11 @@ class InformationWindow:
     @property
     def window(self) -> int: ...
 
-def rules() -> list[dict[str, Any]]: ...
-def rates() -> list[dict[str, Any]]: ...
-def weightings() -> list[dict[str, Any]]: ...
-def gates() -> list[dict[str, Any]]: ...
+def axes() -> list[dict[str, Any]]: ...
+def bounds(
+    rule: Rule,
+    parameters: int,
+    initial: tuple[float, float],
+    forgetting_factors: tuple[float, float],
+    regressor_bound: float,
+) -> tuple[float | None, float | None, bool]: ...

@@ -2,14 +2,25 @@
 
 Every entry of a registry becomes a class here, under the name of its Rust type: its constructor
 takes the entry's parameters, checks their names, and leaves their values to the core to check.
+Every axis, of which the core has the list, gets a base class, a function that makes an entry by
+name and one that lists the entries: for rules ``Rule``, ``rule`` and ``rules``.
+
+>>> import forgetting as fg
+>>> fg.rule("subspace", forgetting_factor=0.98, threshold=1e-3)
+Subspace(forgetting_factor=0.98, threshold=0.001)
+>>> fg.rate("unity_zone", smallest=0.8)
+UnityZone(sensitivity=0.05, smallest=0.8, largest=1.0)
+>>> fg.gate("dead_zone", width=2)
+DeadZone(width=2.0, otherwise='hold')
 """
 
 from __future__ import annotations
 
+import copy
 import inspect
 from collections.abc import Callable, Mapping
 from numbers import Real
-from typing import Any, ClassVar, TypeAlias, TypeVar
+from typing import Any, ClassVar, TypeAlias
 
 import numpy as np
 
@@ -91,7 +102,7 @@ class Rule(Choice):
             if entry["kind"] == "rule":
                 inner = values[entry["name"]]
                 if isinstance(inner, str):
-                    inner = values[entry["name"]] = rule(inner)
+                    inner = values[entry["name"]] = AXES["rule"].make(inner)
                 self.forgetting_factor = getattr(inner, "forgetting_factor", None)
         self.forgetting_factor = _as_rate(self.forgetting_factor)
         self.parameters = values
@@ -117,13 +128,13 @@ class Gate(Choice):
 def _as_rate(given: Any) -> Any:
     """A number, or a rate made from what else may stand for a forgetting factor."""
     if isinstance(given, str):
-        return rate(given)
+        return AXES["rate"].make(given)
     if isinstance(given, type):
         raise _core.InvalidInput(
             f"forgetting_factor = {given.__name__}, allowed: a rate, {given.__name__}(...)"
         )
     if callable(given):
-        return rate("function", function=given)
+        return AXES["rate"].make("function", function=given)
     if isinstance(given, Rate) and given.name == "constant":
         return given.parameters["forgetting_factor"]
     return _plain(given, "real")
@@ -158,129 +169,98 @@ def _make(base: type[Choice], about: Mapping[str, Any]) -> type[Choice]:
     return type(about["type_name"], (base,), body)
 
 
-RULES: dict[str, type[Rule]] = {a["name"]: _make(Rule, a) for a in _core.rules()}  # type: ignore[misc]
-RATES: dict[str, type[Rate]] = {a["name"]: _make(Rate, a) for a in _core.rates()}  # type: ignore[misc]
-WEIGHTINGS: dict[str, type[Weighting]] = {
-    a["name"]: _make(Weighting, a)  # type: ignore[misc]
-    for a in _core.weightings()
-}
-GATES: dict[str, type[Gate]] = {a["name"]: _make(Gate, a) for a in _core.gates()}  # type: ignore[misc]
-CLASSES: dict[str, type[Choice]] = {
-    kind.__name__: kind
-    for registry in (RULES, RATES, WEIGHTINGS, GATES)
-    for kind in registry.values()
-}
+class Axis:
+    """A question that every estimator answers with an entry of one registry.
 
-AnyChoice = TypeVar("AnyChoice", bound=Choice)
-
-
-def _named(
-    what: str, registry: Mapping[str, type[AnyChoice]], name: str, parameters: dict[str, Any]
-) -> AnyChoice:
-    if name not in registry:
-        raise _core.InvalidInput(f"{what} = {name!r}, allowed: {', '.join(registry)}")
-    kind = registry[name]
-    try:
-        return kind(**parameters)
-    except TypeError as error:
-        known = ", ".join(inspect.signature(kind).parameters) or "none"
-        raise _core.InvalidInput(f"{what} {name}: {error}; its parameters: {known}") from None
-
-
-def rule(name: str, **parameters: Any) -> Rule:
-    """Make the rule of this registry name.
-
-    Parameters
+    Attributes
     ----------
-    name : str
-        Registry name, one of ``[r["name"] for r in forgetting.rules()]``.
-    **parameters
-        The forgetting factor, if the rule uses one, and the rule's own parameters.
-
-    Raises
-    ------
-    InvalidInput
-        For a name that is not in the registry, or a parameter that the rule does not have.
-
-    Examples
-    --------
-    >>> import forgetting as fg
-    >>> fg.rule("subspace", forgetting_factor=0.98, threshold=1e-3)
-    Subspace(forgetting_factor=0.98, threshold=0.001)
+    name, plural : str
+        What one entry is called, and several: "rule", "rules".
+    summary : str
+        What the axis is.
+    entries : list of dict
+        What the registry says of each.
+    kind : type
+        The class that those of the entries derive from.
+    classes : dict
+        The class of each entry, by its registry name.
     """
-    return _named("rule", RULES, name, parameters)
+
+    def __init__(self, described: Mapping[str, Any]) -> None:
+        self.name: str = described["name"]
+        self.plural: str = described["plural"]
+        self.summary: str = described["summary"]
+        self.entries: list[dict[str, Any]] = described["entries"]
+        self.kind = _base(self.name, self.summary)
+        self.classes = {about["name"]: _make(self.kind, about) for about in self.entries}
+
+    def make(self, name: str, **parameters: Any) -> Any:
+        """Make the entry of this registry name."""
+        if name not in self.classes:
+            allowed = ", ".join(self.classes)
+            raise _core.InvalidInput(f"{self.name} = {name!r}, allowed: {allowed}")
+        kind = self.classes[name]
+        try:
+            return kind(**parameters)
+        except TypeError as error:
+            known = ", ".join(inspect.signature(kind).parameters) or "none"
+            raise _core.InvalidInput(
+                f"{self.name} {name}: {error}; its parameters: {known}"
+            ) from None
+
+    def exports(self) -> dict[str, Any]:
+        """What users see of the axis, by name."""
+
+        def make(name: str, **parameters: Any) -> Any:
+            return self.make(name, **parameters)
+
+        def entries() -> list[dict[str, Any]]:
+            return copy.deepcopy(self.entries)
+
+        article = {"name": self.name, "plural": self.plural}
+        functions = {self.name: (make, _MAKE), self.plural: (entries, _ENTRIES)}
+        for name, (function, documentation) in functions.items():
+            function.__name__ = function.__qualname__ = name
+            function.__module__ = __package__
+            function.__doc__ = documentation.format(**article)
+        named = {kind.__name__: kind for kind in (self.kind, *self.classes.values())}
+        return {**named, **{name: function for name, (function, _) in functions.items()}}
 
 
-def rate(name: str, **parameters: Any) -> Rate:
-    """Make the rate of this registry name.
+_MAKE = """Make the {name} of this registry name.
 
-    Parameters
-    ----------
-    name : str
-        Registry name, one of ``[r["name"] for r in forgetting.rates()]``.
-    **parameters
-        The rate's parameters.
+Parameters
+----------
+name : str
+    Registry name, one of ``[each["name"] for each in forgetting.{plural}()]``.
+**parameters
+    Its parameters by name; a forgetting factor is one, if it takes one.
 
-    Raises
-    ------
-    InvalidInput
-        For a name that is not in the registry, or a parameter that the rate does not have.
+Raises
+------
+InvalidInput
+    For a name that is not in the registry, or a parameter that the {name} does not have.
+"""
 
-    Examples
-    --------
-    >>> import forgetting as fg
-    >>> fg.rate("unity_zone", smallest=0.8)
-    UnityZone(sensitivity=0.05, smallest=0.8, largest=1.0)
-    """
-    return _named("rate", RATES, name, parameters)
+_ENTRIES = """List the registry of {plural}.
 
-
-def weighting(name: str, **parameters: Any) -> Weighting:
-    """Make the weighting of this registry name.
-
-    Parameters
-    ----------
-    name : str
-        Registry name, one of ``[w["name"] for w in forgetting.weightings()]``.
-    **parameters
-        The weighting's parameters.
-
-    Raises
-    ------
-    InvalidInput
-        For a name that is not in the registry, or a parameter that the weighting does not have.
-
-    Examples
-    --------
-    >>> import forgetting as fg
-    >>> fg.weighting("huber")
-    Huber(threshold=1.345)
-    """
-    return _named("weighting", WEIGHTINGS, name, parameters)
+Returns
+-------
+list of dict
+    For each {name} its name, type_name, summary, header (its documentation) and parameters; for a
+    rule also forgetting_factor, largest_rows, proper, bounded_above, bounded_below and cost.
+"""
 
 
-def gate(name: str, **parameters: Any) -> Gate:
-    """Make the gate of this registry name.
+def _base(name: str, summary: str) -> type[Choice]:
+    """The class that entries of an axis derive from: the one above, if there is one."""
+    written = {kind.__name__.lower(): kind for kind in (Rule, Rate, Weighting, Gate)}
+    body = {"__doc__": summary, "__module__": __package__}
+    return written.get(name) or type(name.capitalize(), (Choice,), body)
 
-    Parameters
-    ----------
-    name : str
-        Registry name, one of ``[g["name"] for g in forgetting.gates()]``.
-    **parameters
-        The gate's parameters.
 
-    Raises
-    ------
-    InvalidInput
-        For a name that is not in the registry, or a parameter that the gate does not have.
-
-    Examples
-    --------
-    >>> import forgetting as fg
-    >>> fg.gate("dead_zone", width=2)
-    DeadZone(width=2.0, otherwise='hold')
-    """
-    return _named("gate", GATES, name, parameters)
+AXES = {described["name"]: Axis(described) for described in _core.axes()}
+"""The axes by name, in the order in which the core lists them."""
 
 
 def rule_from_description(description: Mapping[str, Any], dtype: str) -> Rule:
@@ -292,13 +272,15 @@ def rule_from_description(description: Mapping[str, Any], dtype: str) -> Rule:
 def weighting_from_description(description: Mapping[str, Any], dtype: str) -> Weighting:
     """The weighting that `RLS.describe` describes."""
     described = _rounded(description["weighting"], dtype)
-    return weighting(described["name"], **described["parameters"])
+    made: Weighting = AXES["weighting"].make(described["name"], **described["parameters"])
+    return made
 
 
 def gate_from_description(description: Mapping[str, Any], dtype: str) -> Gate:
     """The gate that `RLS.describe` describes."""
     described = _rounded(description["gate"], dtype)
-    return gate(described["name"], **described["parameters"])
+    made: Gate = AXES["gate"].make(described["name"], **described["parameters"])
+    return made
 
 
 def _rounded(value: Any, dtype: str) -> Any:
@@ -314,11 +296,12 @@ def _rounded(value: Any, dtype: str) -> Any:
 
 def _described(described: Mapping[str, Any], rate_: Mapping[str, Any]) -> Rule:
     """The rule of this name and these parameters, which uses the rate where it has one."""
-    made = RULES[described["name"]]
+    made = AXES["rule"].classes[described["name"]]
     values = dict(described["parameters"])
     for entry in made.about["parameters"]:
         if entry["kind"] == "rule":
             values[entry["name"]] = _described(values[entry["name"]], rate_)
     if made.about["forgetting_factor"]:
-        values["forgetting_factor"] = rate(rate_["name"], **rate_["parameters"])
-    return made(**values)
+        values["forgetting_factor"] = AXES["rate"].make(rate_["name"], **rate_["parameters"])
+    rule: Rule = made(**values)  # type: ignore[assignment]
+    return rule

@@ -1,10 +1,11 @@
-"""Every rule, rate, weighting and gate of the registries, each a class of its own.
+"""Every axis and every entry of its registry: a class each, and two functions an axis.
 
-The classes are made at import; `registry.pyi`, written by ``tools/stubs.py``, lists them
-for type checkers and editors.
+They are made at import; `registry.pyi`, written by ``tools/stubs.py``, lists them for type
+checkers and editors.
 """
 
-from .choices import CLASSES
+from .choices import AXES
 
-globals().update(CLASSES)
-__all__ = tuple(CLASSES)
+_NAMES = {name: value for axis in AXES.values() for name, value in axis.exports().items()}
+globals().update(_NAMES)
+__all__ = tuple(_NAMES)

@@ -27,6 +27,7 @@ __all__ = [
     "FTest",
     "Fortescue",
     "Function",
+    "Gate",
     "GateFunction",
     "Gradient",
     "Huber",
@@ -39,14 +40,38 @@ __all__ = [
     "Open",
     "PredictionError",
     "RandomWalk",
+    "Rate",
     "Restricted",
     "RmsRatio",
+    "Rule",
     "Schedule",
+    "Stabilised",
     "StudentT",
     "Subspace",
     "UnityZone",
     "VariableDirection",
+    "Weighting",
+    "gate",
+    "gates",
+    "rate",
+    "rates",
+    "rule",
+    "rules",
+    "weighting",
+    "weightings",
 ]
+
+def rule(name: str, **parameters: Any) -> Rule: ...
+def rules() -> list[dict[str, Any]]: ...
+
+def rate(name: str, **parameters: Any) -> Rate: ...
+def rates() -> list[dict[str, Any]]: ...
+
+def weighting(name: str, **parameters: Any) -> Weighting: ...
+def weightings() -> list[dict[str, Any]]: ...
+
+def gate(name: str, **parameters: Any) -> Gate: ...
+def gates() -> list[dict[str, Any]]: ...
 
 class Component(Rule):
     """Forgets each parameter, or each block of parameters, at a rate of its own.
@@ -1217,6 +1242,46 @@ class Schedule(Rate):
         self,
         factors: ArrayLike = 0.99,
         end: Literal["hold", "repeat"] = "hold",
+    ) -> None: ...
+
+class Stabilised(Rule):
+    """Forgets towards a fixed covariance, so that P stays between two bounds whatever the input.
+
+    ```text
+    P̄ = λ_k P_k + (1 − λ_k) P_∞              stabilised (regularized) linear forgetting
+    F_k = R_k − P̄⁻¹                          as a case of Theorem 1
+    P ← λ P, P ← P + (1 − λ) Σ_i r_iᵀr_i     the form used: D ← λ D, then one covariance row for
+                                             each row r_i of a root of P_∞
+    ```
+
+    | symbol | name | range | default |
+    |---|---|---|---|
+    | P_∞ | covariance | a number c > 0 (c·I), n numbers > 0 or an n x n positive definite matrix | 100 |
+
+    The dual of `exponential_resetting`, which averages P⁻¹ where this averages P. In silence both
+    return to a fixed covariance. Here P̄ is also at least (1 − λ) P_∞ at every sample, so that a
+    direction that was informed about for long is forgotten at once as far as that.
+
+    - Proper (A1): if P₀ ≤ P_∞; P_k ≤ P_∞ then holds for ever.
+    - P̄ bounded above without excitation (A2): always, by the larger of P₀ and P_∞.
+    - P bounded below (A3): if λ_k ≤ λ_max < 1 and φ is bounded: after a sample with φ̄ᵀφ̄ ≤ β I,
+      P⁻¹ ≤ β I + P_∞⁻¹/(1 − λ_max).
+    - Cost: O(n³). State: P alone.
+    - Use it when the gain must neither wind up nor fall asleep, with both bounds stated
+      beforehand. The smallest variance that it keeps, (1 − λ) P_∞, is noise in the estimate.
+
+    Reference: R. Kulhavý, F. J. Kraus, *On duality of regularized exponential and linear
+    forgetting*, Automatica 32, 1996; with P_∞ = c·I the linear case of J. E. Parkum, N. K. Poulsen,
+    J. Holst, *Recursive forgetting algorithms*, International Journal of Control 55, 1992, which
+    measures first and forgets afterwards.
+    """
+
+    about: ClassVar[Mapping[str, Any]]
+    name: ClassVar[str]
+    def __init__(
+        self,
+        forgetting_factor: ForgettingFactor = 0.99,
+        covariance: ArrayLike = 100.0,
     ) -> None: ...
 
 class StudentT(Weighting):

@@ -30,10 +30,51 @@ class Setting:
     axes: bool = False
 
 
+ABOUT = {about["name"]: about for about in fg.rules()}
+
+
 def proper(n):
-    """Settings in which a rule is proper, by its name; a rule may have several."""
+    """Settings in which a rule is proper, by its name; a rule may have several.
+
+    The defaults with λ = 0.9, but for the rules below, which take more than that.
+    """
     return {
-        "none": [Setting(fg.NoForgetting())],
+        about["name"]: [Setting(_rule(about, 0.9, {}), rows=about["largest_rows"] or 2)]
+        for about in ABOUT.values()
+        if about["proper"] != "no" and not _takes_a_function(about)
+    } | _proper(n)
+
+
+def improper(n):
+    """A setting of each rule that is not always proper in which it is not.
+
+    The one that the rule names itself, but for those below.
+    """
+    return {
+        about["name"]: _named(about)
+        for about in ABOUT.values()
+        if about["proper"] != "always" and not _takes_a_function(about)
+    } | _improper()
+
+
+def _rule(about, factor, parameters):
+    rated = {"forgetting_factor": factor} if about["forgetting_factor"] else {}
+    return fg.rule(about["name"], **rated, **parameters)
+
+
+def _named(about):
+    """The setting in which, by what the registry says, the rule is not proper."""
+    fails = about["settings"]["proper"]["fails"]
+    rule = _rule(about, fails["forgetting_factor"], fails["parameters"])
+    return Setting(rule, start=fails["variance"], rows=1)
+
+
+def _takes_a_function(about):
+    return any(parameter["kind"] == "function" for parameter in about["parameters"])
+
+
+def _proper(n):
+    return {
         "exponential": [
             Setting(fg.Exponential(0.9)),
             Setting(fg.Exponential(fg.PredictionError(sensitivity=1.0, smallest=0.8))),
@@ -41,8 +82,6 @@ def proper(n):
         "exponential_resetting": [Setting(fg.ExponentialResetting(0.9, information=0.4))],
         "subspace": [Setting(fg.Subspace(0.9, threshold=1e-3))],
         "directional": [Setting(fg.Directional(0.9, threshold=1e-3), rows=1)],
-        "oblique_projection": [Setting(fg.ObliqueProjection(0.9))],
-        "restricted": [Setting(fg.Restricted(0.9))],
         # so far from θ that every sample has the largest weight: none is left out
         "data_dependent": [Setting(fg.DataDependent(1e-6, 0.1, initial_radius=1e6))],
         "component": [Setting(fg.Component(factors=np.linspace(0.85, 0.97, n)))],
@@ -62,8 +101,7 @@ def proper(n):
     }
 
 
-def improper(n):
-    """A setting of each rule that is not always proper in which it is not."""
+def _improper():
     return {
         "exponential_resetting": Setting(fg.ExponentialResetting(0.9, information=5.0)),
         "cyclic_resetting": Setting(fg.CyclicResetting(0.9, information=5.0), rows=1),

@@ -1,13 +1,12 @@
 //! The registries as Python dictionaries.
 
+use crate::choice::read;
 use crate::choice::write_value;
-use forgetting::gates::{Answer, GATES};
-use forgetting::parameter::{Kind, Parameter};
-use forgetting::rates::RATES;
-use forgetting::rules::{Claim, RULES};
-use forgetting::weighting::WEIGHTINGS;
-use forgetting::Skip;
-use forgetting_runtime::{FleetUpdate, Value};
+use crate::errors::raise;
+use forgetting::choice::{About, Axis, Claim, Constants, Guarantees, Kind, Parameter, Setting};
+use forgetting::gates::Answer;
+use forgetting::{Skip, AXES};
+use forgetting_runtime::{covariance_bounds, Choice, CovarianceBounds, FleetUpdate, Value};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
@@ -17,6 +16,39 @@ fn claim(claim: Claim) -> String {
         Claim::If(condition) => format!("if {condition}"),
         Claim::No => "no".into(),
     }
+}
+
+/// What a rule guarantees, in words, and the settings in which each claim holds and fails.
+fn write_guarantees(entry: &Bound<'_, PyDict>, guarantees: &Guarantees) -> PyResult<()> {
+    let Guarantees { proper, bounded_above, bounded_below } = guarantees;
+    let settings = PyDict::new(entry.py());
+    for (name, guarantee) in
+        [("proper", proper), ("bounded_above", bounded_above), ("bounded_below", bounded_below)]
+    {
+        let shown = PyDict::new(entry.py());
+        shown.set_item("holds", setting(entry.py(), guarantee.holds)?)?;
+        shown.set_item("fails", setting(entry.py(), guarantee.fails)?)?;
+        settings.set_item(name, shown)?;
+        entry.set_item(name, claim(guarantee.claim))?;
+    }
+    entry.set_item("settings", settings)
+}
+
+fn setting(py: Python<'_>, setting: Option<Setting>) -> PyResult<Option<Bound<'_, PyDict>>> {
+    let Some(Setting { parameters, forgetting_factor, variance, input, error }) = setting else {
+        return Ok(None);
+    };
+    let (written, values) = (PyDict::new(py), PyDict::new(py));
+    for &(name, value) in parameters {
+        let value = Value::of_core(value).map(|value| write_value(py, &value)).transpose()?;
+        values.set_item(name, value)?;
+    }
+    written.set_item("parameters", values)?;
+    written.set_item("forgetting_factor", forgetting_factor)?;
+    written.set_item("variance", variance)?;
+    written.set_item("input", format!("{input:?}"))?;
+    written.set_item("error", error)?;
+    Ok(Some(written))
 }
 
 fn parameter<'py>(py: Python<'py>, parameter: &Parameter) -> PyResult<Bound<'py, PyDict>> {
@@ -35,67 +67,64 @@ fn parameter<'py>(py: Python<'py>, parameter: &Parameter) -> PyResult<Bound<'py,
     entry.set_item("kind", kind)?;
     entry.set_item("range", range)?;
     entry.set_item("required", parameter.default.is_none() && !parameter.optional)?;
-    let default = Value::default_of(parameter);
+    let default = parameter.default.and_then(Value::of_core);
     let default = default.map(|value| write_value(py, &value)).transpose()?;
     entry.set_item("default", default)?;
     Ok(entry)
 }
 
-/// What every registry says of its entries.
-fn entry<'py>(
-    py: Python<'py>,
-    name: &str,
-    type_name: &str,
-    source: &str,
-    parameters: &[Parameter],
-) -> PyResult<Bound<'py, PyDict>> {
+/// The entry of a registry.
+fn entry<'py>(py: Python<'py>, about: &About) -> PyResult<Bound<'py, PyDict>> {
     let entry = PyDict::new(py);
-    let header: Vec<&str> = source
-        .lines()
-        .take_while(|line| line.starts_with("//!"))
-        .map(|line| line.trim_start_matches("//!").strip_prefix(' ').unwrap_or(""))
-        .collect();
-    entry.set_item("name", name)?;
-    entry.set_item("type_name", type_name)?;
-    entry.set_item("summary", header.first().copied().unwrap_or(""))?;
-    entry.set_item("header", header.join("\n"))?;
-    let parameters: PyResult<Vec<_>> = parameters.iter().map(|p| parameter(py, p)).collect();
+    entry.set_item("name", about.name)?;
+    entry.set_item("type_name", about.type_name)?;
+    entry.set_item("summary", about.summary())?;
+    entry.set_item("header", about.header().collect::<Vec<_>>().join("\n"))?;
+    let parameters: PyResult<Vec<_>> = about.parameters.iter().map(|p| parameter(py, p)).collect();
     entry.set_item("parameters", PyList::new(py, parameters?)?)?;
+    if let Some(guarantees) = about.guarantees {
+        entry.set_item("forgetting_factor", about.forgetting_factor)?;
+        entry.set_item("largest_rows", about.largest_rows)?;
+        write_guarantees(&entry, &guarantees)?;
+        entry.set_item("cost", about.cost)?;
+    }
     Ok(entry)
 }
 
-/// Every forgetting rule: name, type_name, summary, header, parameters, guarantees and cost.
+/// The choices that make an estimator: name, plural, summary and entries of each.
+///
+/// An entry has name, type_name, summary, header and parameters; that of a rule also
+/// forgetting_factor, largest_rows, its guarantees (proper, bounded_above, bounded_below), the
+/// settings that show them, and cost.
 #[pyfunction]
-pub fn rules(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
-    let describe = |about: &forgetting::rules::About| {
-        let entry = entry(py, about.name, about.type_name, about.source, about.parameters)?;
-        entry.set_item("forgetting_factor", about.forgetting_factor)?;
-        entry.set_item("largest_rows", about.largest_rows)?;
-        entry.set_item("proper", claim(about.proper))?;
-        entry.set_item("bounded_above", claim(about.bounded_above))?;
-        entry.set_item("bounded_below", claim(about.bounded_below))?;
-        entry.set_item("cost", about.cost)?;
-        Ok(entry)
+pub fn axes(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
+    let describe = |axis: &Axis| {
+        let dictionary = PyDict::new(py);
+        dictionary.set_item("name", axis.name)?;
+        dictionary.set_item("plural", axis.plural)?;
+        dictionary.set_item("summary", axis.summary().collect::<Vec<_>>().join(" "))?;
+        let entries: PyResult<Vec<_>> = axis.entries.iter().map(|about| entry(py, about)).collect();
+        dictionary.set_item("entries", PyList::new(py, entries?)?)?;
+        Ok(dictionary)
     };
-    RULES.iter().map(describe).collect()
+    AXES.iter().map(describe).collect()
 }
 
-/// Every rate: name, type_name, summary, header and parameters.
+/// The bounds that a rule states for the eigenvalues of P, P_0 taken in: the lower, the upper (None
+/// where there is none, or no formula), and whether P stays bounded whatever the input.
 #[pyfunction]
-pub fn rates(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
-    RATES.iter().map(|a| entry(py, a.name, a.type_name, a.source, a.parameters)).collect()
-}
-
-/// Every weighting: name, type_name, summary, header and parameters.
-#[pyfunction]
-pub fn weightings(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
-    WEIGHTINGS.iter().map(|a| entry(py, a.name, a.type_name, a.source, a.parameters)).collect()
-}
-
-/// Every gate: name, type_name, summary, header and parameters.
-#[pyfunction]
-pub fn gates(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
-    GATES.iter().map(|a| entry(py, a.name, a.type_name, a.source, a.parameters)).collect()
+pub fn bounds(
+    rule: &Bound<'_, PyAny>,
+    parameters: usize,
+    initial: (f64, f64),
+    forgetting_factors: (f64, f64),
+    regressor_bound: f64,
+) -> PyResult<(Option<f64>, Option<f64>, bool)> {
+    let rule = read("rule", Some(rule))?.unwrap_or_else(|| Choice::named(""));
+    let constants = Constants { parameters, initial, forgetting_factors, regressor_bound };
+    let CovarianceBounds { below, above, bounded } =
+        covariance_bounds(&rule, &constants).map_err(raise)?;
+    Ok((below, above, bounded))
 }
 
 /// The codes of a record's `gate`: 0 is "update".

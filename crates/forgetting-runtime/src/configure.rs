@@ -8,7 +8,7 @@ use forgetting::gates::{AnyGate, GATES};
 use forgetting::rates::{AnyRate, RATES};
 use forgetting::rules::{Rule, RULES};
 use forgetting::saved::AnyEstimator;
-use forgetting::weighting::{AnyWeighting, WEIGHTINGS};
+use forgetting::weightings::{AnyWeighting, WEIGHTINGS};
 use forgetting::{Dynamic, Estimator, Memory, Prior};
 
 /// The estimator that `settings` say, with `initial_covariance` and `initial_theta` in the place
@@ -37,7 +37,10 @@ pub(crate) fn estimator<T: Number>(
     Ok(estimator)
 }
 
-fn rule<T: Number>(choice: &Choice, memory: Dynamic<T>) -> Result<Rule<Dynamic<T>>, Error> {
+pub(crate) fn rule<T: Number>(
+    choice: &Choice,
+    memory: Dynamic<T>,
+) -> Result<Rule<Dynamic<T>>, Error> {
     let about = RULES.iter().find(|about| about.name == choice.name);
     choice.make("rule", about.map(|about| about.parameters), for_rule, |name, values| {
         Rule::named(name, values, memory)

@@ -25,6 +25,7 @@
 #![forbid(unsafe_code)]
 
 mod array;
+mod bounds;
 mod by_type;
 mod choice;
 mod configure;
@@ -40,6 +41,7 @@ mod update;
 mod window;
 
 pub use array::{Array, Elements, Numbers, View};
+pub use bounds::{covariance_bounds, CovarianceBounds};
 pub use choice::{Choice, Description, Value};
 pub use error::{check_shape, Error, Kind};
 pub use estimator::Estimator;

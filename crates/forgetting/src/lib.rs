@@ -1,9 +1,9 @@
 //! Recursive least squares with generalized forgetting.
 //!
 //! An [`Estimator`] follows the parameters θ of y = φθ + noise, sample by sample. It combines
-//! three independent choices: *where* to forget (a rule, [`rules`]), *how much* (a rate,
-//! [`rates`]) and *how far to trust* a sample (a [`weighting`] and the noise covariance Γ). A gate
-//! ([`gates`]) may be set before them, to say *whether* a sample is used.
+//! four independent choices: *where* to forget (a rule, [`rules`]), *how much* (a rate,
+//! [`rates`]), *how far to trust* a sample (a weighting, [`weightings`], and the noise covariance
+//! Γ), and *whether* to use it (a gate, [`gates`]). [`AXES`] lists them.
 //!
 //! The covariance is kept as U D Uᵀ and nothing is ever subtracted from it, so that it stays
 //! positive definite for any input, in `f32` too. A sample that cannot be used is refused with
@@ -19,21 +19,15 @@ extern crate alloc;
 #[cfg(test)]
 extern crate std;
 
-mod blocks;
+pub mod choice;
 pub mod covariance;
-pub mod criterion;
-mod directions;
 mod error;
 mod estimator;
 #[cfg(feature = "alloc")]
 pub mod fleet;
-#[cfg(feature = "alloc")]
-pub mod function;
 pub mod gates;
 mod memory;
 pub mod monitor;
-pub mod parameter;
-mod range;
 pub mod rates;
 pub mod rules;
 mod sample;
@@ -42,9 +36,11 @@ pub mod saved;
 pub mod state;
 #[cfg(test)]
 mod testing;
-pub mod weighting;
+pub mod weightings;
 
-pub use blocks::Blocks;
+#[cfg(feature = "alloc")]
+pub use choice::function;
+pub use choice::parameter;
 pub use covariance::{Factor, Prior};
 pub use error::Error;
 #[cfg(feature = "alloc")]
@@ -59,6 +55,10 @@ pub use monitor::Health;
 #[cfg(feature = "alloc")]
 pub use monitor::InformationWindow;
 pub use rates::{Constant, Rate};
-pub use rules::{Exponential, ExponentialResetting, Forgetting, NoForgetting, Subspace};
+pub use rules::{Blocks, Exponential, ExponentialResetting, Forgetting, NoForgetting, Subspace};
 pub use sample::{Answer, Evidence, Needs, Noise, Sample, Skip, Update, Work};
-pub use weighting::{Equal, Weighting};
+pub use weightings::{Equal, Weighting};
+
+/// The choices that make an estimator, each with its registry: what an axis adds to every face
+/// and to the documentation follows from its line here.
+pub const AXES: &[choice::Axis] = &[rules::AXIS, rates::AXIS, weightings::AXIS, gates::AXIS];

@@ -1,10 +1,10 @@
 //! An update allocates nothing, whatever the rule.
 
+use forgetting::choice::Defaults;
 use forgetting::gates::{AnyGate, GATES};
-use forgetting::parameter::Defaults;
 use forgetting::rates::{AnyRate, RATES};
 use forgetting::rules::{Rule, RULES};
-use forgetting::weighting::{AnyWeighting, WEIGHTINGS};
+use forgetting::weightings::{AnyWeighting, WEIGHTINGS};
 use forgetting::{Dynamic, Equal, Estimator, Exponential, Noise, Prior};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;

@@ -1,11 +1,11 @@
 //! A stream of a fleet is the estimator: bit for bit up to ten parameters, to rounding above.
 
+use forgetting::choice::{Defaults, Value, Values};
 use forgetting::fleet::{Fleet, Outputs, Samples, REFUSED};
-use forgetting::parameter::{Defaults, Value, Values};
 use forgetting::rates::AnyRate;
 use forgetting::rules::{Rule, Skip};
 use forgetting::saved::AnyEstimator;
-use forgetting::weighting::AnyWeighting;
+use forgetting::weightings::AnyWeighting;
 use forgetting::{Dynamic, Error, Estimator, Kernels, Prior};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;

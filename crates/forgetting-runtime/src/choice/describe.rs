@@ -8,7 +8,7 @@ use forgetting::parameter;
 use forgetting::rates::Rate;
 use forgetting::rules::Forgetting;
 use forgetting::saved::AnyEstimator;
-use forgetting::weighting::Weighting;
+use forgetting::weightings::Weighting;
 
 impl Description {
     /// What `estimator` is made of.
@@ -65,10 +65,10 @@ impl Value {
         })
     }
 
-    /// The default of a parameter, if it has one.
+    /// A value of the core's that is data; none for a function.
     #[must_use]
-    pub fn default_of(parameter: &parameter::Parameter) -> Option<Self> {
-        parameter.default.and_then(Self::of::<f64>)
+    pub fn of_core(value: parameter::Value<'_>) -> Option<Self> {
+        Self::of::<f64>(value)
     }
 }
 

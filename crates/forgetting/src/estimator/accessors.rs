@@ -6,7 +6,7 @@ use crate::monitor::{Health, Monitor};
 use crate::rates::Rate;
 use crate::rules::Forgetting;
 use crate::state::{State, Visitor};
-use crate::weighting::Weighting;
+use crate::weightings::Weighting;
 use crate::{Error, Factor, Memory, Prior};
 use forgetting_kernels::kernel::functions::dot;
 

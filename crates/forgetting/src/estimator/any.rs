@@ -3,7 +3,7 @@
 use super::{Estimator, EstimatorState};
 use crate::rates::AnyRate;
 use crate::rules::Rule;
-use crate::weighting::AnyWeighting;
+use crate::weightings::AnyWeighting;
 use crate::Dynamic;
 use forgetting_kernels::kernel::form::Form;
 use forgetting_kernels::Kernels;

@@ -5,7 +5,7 @@ use crate::gates::{AnyGate, Gate};
 use crate::monitor::Monitor;
 use crate::rates::Rate;
 use crate::rules::Forgetting;
-use crate::weighting::Weighting;
+use crate::weightings::Weighting;
 use crate::{Factor, Memory, Prior, Real};
 use forgetting_kernels::kernel::form::Form;
 

@@ -6,7 +6,7 @@ use super::{Estimator, EstimatorState};
 use crate::rates::Rate;
 use crate::rules::{Forgetting, Forgotten};
 use crate::sample::{Answer, Skip, Update, Whitened};
-use crate::weighting::Weighting;
+use crate::weightings::Weighting;
 use crate::{Memory, Real};
 use forgetting_kernels::kernel::outcome::Outcome;
 use forgetting_kernels::kernel::watch::Observations;

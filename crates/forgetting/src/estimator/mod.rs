@@ -20,7 +20,7 @@ use crate::gates::{AnyGate, Open};
 use crate::rates::Rate;
 use crate::rules::Forgetting;
 use crate::sample::{Noise, SampleBuffers, Update, Work};
-use crate::weighting::Weighting;
+use crate::weightings::Weighting;
 use crate::{Error, Memory, Prior};
 #[cfg(feature = "alloc")]
 pub use any::AnyEstimator;

@@ -3,7 +3,7 @@
 use crate::gates::{AnyGate, Gate};
 use crate::sample::{leverage, not_finite, out_of_range, whiten_errors};
 use crate::sample::{Answer, Evidence, Needs, Sample, Work};
-use crate::weighting::Weighting;
+use crate::weightings::Weighting;
 use crate::{Error, Factor, Memory, Real};
 
 /// What is computed once of a sample and lent to gate, weighting and rate as [`Evidence`].

@@ -8,7 +8,7 @@ use crate::rates::Rate;
 use crate::rules::{Forgetting, Forgotten, Step};
 use crate::sample::{leverage, measure_rows, whiten};
 use crate::sample::{Answer, Noise, Sample, Skip, Update, Whitened};
-use crate::weighting::Weighting;
+use crate::weightings::Weighting;
 use crate::{Error, Memory, Real};
 use forgetting_kernels::kernel::form::Form;
 use forgetting_kernels::kernel::watch::Observation;

@@ -1,11 +1,11 @@
 //! Which estimators can be streams of one fleet.
 
+use crate::choice::Value;
 use crate::gates::Gate;
-use crate::parameter::Value;
 use crate::rates::Rate;
 use crate::rules::Forgetting;
 use crate::saved::{write_choice, AnyEstimator};
-use crate::weighting::Weighting;
+use crate::weightings::Weighting;
 use crate::{Error, Memory};
 use alloc::vec::Vec;
 use forgetting_kernels::Kernels;

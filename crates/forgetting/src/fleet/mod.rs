@@ -33,10 +33,10 @@ use transfer::Numbers;
 ///
 /// ```
 /// use forgetting::fleet::{Fleet, Samples, Outputs};
-/// use forgetting::parameter::Defaults;
+/// use forgetting::choice::Defaults;
 /// use forgetting::rates::AnyRate;
 /// use forgetting::rules::Rule;
-/// use forgetting::weighting::AnyWeighting;
+/// use forgetting::weightings::AnyWeighting;
 /// use forgetting::{Dynamic, Estimator, Prior};
 ///
 /// let memory = Dynamic::<f64>::new(2, 1, 1)?;

@@ -29,8 +29,8 @@
 //! *Adaptive Filtering, Prediction and Control*, 1984.
 
 use super::otherwise::{self, OTHERWISE};
-use super::{AboutGate, Answer, Gate};
-use crate::parameter::{Parameter, Range, Value, Values};
+use super::{Answer, Gate};
+use crate::choice::{About, Parameter, Range, Value, Values};
 use crate::sample::Evidence;
 use crate::{Error, Memory, Real};
 
@@ -42,12 +42,7 @@ const WIDTH: Parameter = Parameter::real(
 );
 
 /// The registry entry.
-pub const ABOUT: AboutGate = AboutGate {
-    name: "dead_zone",
-    type_name: "DeadZone",
-    source: include_str!("dead_zone.rs"),
-    parameters: &[WIDTH, OTHERWISE],
-};
+pub const ABOUT: About = About::new(&[WIDTH, OTHERWISE]);
 
 /// Open for large errors; see [`self`](crate::gates::dead_zone).
 #[derive(Clone, Copy, Debug)]

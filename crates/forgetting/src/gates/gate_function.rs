@@ -17,9 +17,9 @@
 //! - Use it for what you know and the record does not say: a valve that is shut, a sensor that
 //!   saturates.
 
-use super::{AboutGate, Answer, Gate};
-use crate::function::EvidenceFunction;
-use crate::parameter::{Kind, Parameter, Range, Value, Values};
+use super::{Answer, Gate};
+use crate::choice::function::EvidenceFunction;
+use crate::choice::{About, Kind, Parameter, Range, Value, Values};
 use crate::sample::{Evidence, Needs};
 use crate::{Error, Memory};
 
@@ -33,12 +33,7 @@ const FUNCTION: Parameter = Parameter::elements(
 .required();
 
 /// The registry entry.
-pub const ABOUT: AboutGate = AboutGate {
-    name: "gate_function",
-    type_name: "GateFunction",
-    source: include_str!("gate_function.rs"),
-    parameters: &[FUNCTION],
-};
+pub const ABOUT: About = About::new(&[FUNCTION]);
 
 /// An answer from a function; see [`self`](crate::gates::gate_function).
 ///
@@ -64,7 +59,7 @@ pub type GateFunction<M> = EvidenceFunction<M, Answer>;
 
 impl<M: Memory> Gate<M> for GateFunction<M> {
     fn configure(values: &dyn Values, _: M) -> Result<Self, Error> {
-        Self::given(&FUNCTION, values)
+        Self::from_values(&FUNCTION, values)
     }
 
     fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>)) {

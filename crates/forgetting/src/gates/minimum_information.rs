@@ -25,8 +25,8 @@
 //!   and standstills.
 
 use super::otherwise::{self, OTHERWISE};
-use super::{AboutGate, Answer, Gate};
-use crate::parameter::{Parameter, Range, Value, Values};
+use super::{Answer, Gate};
+use crate::choice::{About, Parameter, Range, Value, Values};
 use crate::sample::{Evidence, Needs};
 use crate::{Error, Memory, Real};
 
@@ -38,12 +38,7 @@ const INFORMATION: Parameter = Parameter::real(
 );
 
 /// The registry entry.
-pub const ABOUT: AboutGate = AboutGate {
-    name: "minimum_information",
-    type_name: "MinimumInformation",
-    source: include_str!("minimum_information.rs"),
-    parameters: &[INFORMATION, OTHERWISE],
-};
+pub const ABOUT: About = About::new(&[INFORMATION, OTHERWISE]);
 
 /// Open for what informs; see [`self`](crate::gates::minimum_information).
 #[derive(Clone, Copy, Debug)]

@@ -10,15 +10,14 @@
 //! - Cost: none. State: none.
 //! - Use it where the rule itself knows what to leave alone, as `subspace` does.
 
-use super::{AboutGate, Answer, Gate};
-use crate::parameter::{Value, Values};
+use super::{Answer, Gate};
+use crate::choice::{About, Value, Values};
 use crate::sample::Evidence;
 use crate::{Error, Memory};
 use core::marker::PhantomData;
 
 /// The registry entry.
-pub const ABOUT: AboutGate =
-    AboutGate { name: "open", type_name: "Open", source: include_str!("open.rs"), parameters: &[] };
+pub const ABOUT: About = About::new(&[]);
 
 /// Always open; see [`self`](crate::gates::open).
 #[derive(Clone, Copy, Debug, Default)]

@@ -1,6 +1,6 @@
 //! The parameter `otherwise` of a gate: what is done with a sample that does not pass.
 
-use crate::parameter::{Parameter, Value, Values};
+use crate::choice::{Parameter, Value, Values};
 use crate::sample::Answer;
 use crate::Error;
 

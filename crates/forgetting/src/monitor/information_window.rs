@@ -11,7 +11,7 @@
 //! nothing was subtracted from. Until then rounding adds up to at most about N ε times the largest
 //! trace of A since ([`InformationWindow::noise`]): an eigenvalue below that is 0.
 
-use crate::parameter::{Parameter, Range};
+use crate::choice::{Parameter, Range};
 use crate::{Error, Real};
 use alloc::{vec, vec::Vec};
 

@@ -1,6 +1,6 @@
 //! A fast and a slow average of the same numbers.
 
-use crate::parameter::{Parameter, Range, Value, Values};
+use crate::choice::{Parameter, Range, Value, Values};
 use crate::state::Visitor;
 use crate::{Error, Real};
 

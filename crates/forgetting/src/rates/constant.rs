@@ -15,8 +15,8 @@
 //!
 //! Reference: GF-RLS (35).
 
-use super::{AboutRate, Evidence, Rate};
-use crate::parameter::{Parameter, Range, Value, Values};
+use super::{Evidence, Rate};
+use crate::choice::{About, Parameter, Range, Value, Values};
 use crate::{Error, Memory, Real};
 
 const FORGETTING_FACTOR: Parameter = Parameter::real(
@@ -27,12 +27,7 @@ const FORGETTING_FACTOR: Parameter = Parameter::real(
 );
 
 /// The registry entry.
-pub const ABOUT: AboutRate = AboutRate {
-    name: "constant",
-    type_name: "Constant",
-    source: include_str!("constant.rs"),
-    parameters: &[FORGETTING_FACTOR],
-};
+pub const ABOUT: About = About::new(&[FORGETTING_FACTOR]);
 
 /// λ_k = λ; see [`self`](crate::rates::constant).
 #[derive(Clone, Copy, Debug)]

@@ -25,21 +25,16 @@
 
 use super::gradient::STEP_SIZE;
 use super::limits::{largest, SMALLEST};
-use super::{AboutRate, Evidence, Limits, Rate};
-use forgetting_kernels::kernel::functions::{add_scaled, dot};
-use crate::parameter::{Parameter, Range, Value, Values};
+use super::{Evidence, Limits, Rate};
+use crate::choice::{About, Parameter, Range, Value, Values};
 use crate::state::{is_factor, is_finite, State, Visitor};
 use crate::{Error, Factor, Memory, Real, Sample};
+use forgetting_kernels::kernel::functions::{add_scaled, dot};
 
 const LARGEST: Parameter = largest(0.9999, Range::FRACTION);
 
 /// The registry entry.
-pub const ABOUT: AboutRate = AboutRate {
-    name: "exact_gradient",
-    type_name: "ExactGradient",
-    source: include_str!("exact_gradient.rs"),
-    parameters: &[STEP_SIZE, SMALLEST, LARGEST],
-};
+pub const ABOUT: About = About::new(&[STEP_SIZE, SMALLEST, LARGEST]);
 
 /// λ down the squared error; see [`self`](crate::rates::exact_gradient).
 #[derive(Clone, Copy, Debug)]
@@ -94,9 +89,7 @@ impl<M: Memory> Sensitivity<M> {
         let half = M::Real::from_f64(0.5);
         let (gains, products) = (&mut self.gains.as_mut()[..used], self.products.as_mut());
         let (covariance, h) = (self.covariance.as_mut(), self.partner.as_mut());
-        for (i, (g, b)) in
-            gains.chunks_exact_mut(n).zip(products.chunks_exact_mut(n)).enumerate()
-        {
+        for (i, (g, b)) in gains.chunks_exact_mut(n).zip(products.chunks_exact_mut(n)).enumerate() {
             g.copy_from_slice(sample.row(i));
             factor.multiply(g);
             for (b, z) in b.iter_mut().zip(covariance.chunks_exact(n)) {

@@ -34,16 +34,16 @@
 //! Reference: N. Mohseni, D. S. Bernstein, *Recursive least squares with variable-rate forgetting
 //! based on the F-test*, American Control Conference, 2022.
 
-use forgetting_kernels::Kernels;
 use super::f_law::quantile;
 use super::limits::{largest, SMALLEST};
 use super::rms_ratio::{factor, Past, SENSITIVITY};
-use super::{AboutRate, Evidence, Limits, Rate, Windows};
-use forgetting_kernels::kernel::functions::{add_scaled, dot};
-use crate::parameter::{Parameter, Range, Value, Values};
+use super::{Evidence, Limits, Rate, Windows};
+use crate::choice::{About, Parameter, Range, Value, Values};
 use crate::sample::cholesky;
 use crate::{Error, Memory, Real};
 use core::marker::PhantomData;
+use forgetting_kernels::kernel::functions::{add_scaled, dot};
+use forgetting_kernels::Kernels;
 
 const SIGNIFICANCE: Parameter = Parameter::real(
     "significance",
@@ -54,19 +54,14 @@ const SIGNIFICANCE: Parameter = Parameter::real(
 const LARGEST: Parameter = largest(1.0, Range::FRACTION);
 
 /// The registry entry.
-pub const ABOUT: AboutRate = AboutRate {
-    name: "f_test",
-    type_name: "FTest",
-    source: include_str!("f_test.rs"),
-    parameters: &[
-        SENSITIVITY,
-        Windows::PARAMETERS[0],
-        Windows::PARAMETERS[1],
-        SIGNIFICANCE,
-        SMALLEST,
-        LARGEST,
-    ],
-};
+pub const ABOUT: About = About::new(&[
+    SENSITIVITY,
+    Windows::PARAMETERS[0],
+    Windows::PARAMETERS[1],
+    SIGNIFICANCE,
+    SMALLEST,
+    LARGEST,
+]);
 
 /// λ from an F-test; see [`self`](crate::rates::f_test).
 #[derive(Clone, Copy, Debug)]
@@ -191,8 +186,7 @@ impl<M: Memory> Rate<M> for FTest<M> {
     type State = Past<M>;
 
     fn configure(values: &dyn Values, memory: M) -> Result<Self, Error> {
-        let (limits, windows) =
-            (Limits::configure(values, &LARGEST)?, Windows::configure(values)?);
+        let (limits, windows) = (Limits::configure(values, &LARGEST)?, Windows::configure(values)?);
         let significance = SIGNIFICANCE.number(values)?;
         Self::new(memory, SENSITIVITY.number(values)?, windows, significance, limits)
     }
@@ -247,7 +241,7 @@ impl<M: Memory> Rate<M> for FTest<M> {
 mod tests {
     extern crate std;
     use super::{inverse_root, product, quantile, FTest, Limits, Windows};
-    use crate::{Dynamic, Equal, Error, Estimator, Fixed, Exponential, Prior};
+    use crate::{Dynamic, Equal, Error, Estimator, Exponential, Fixed, Prior};
 
     #[test]
     fn for_one_error_it_is_the_ratio_of_two_variances() {
@@ -299,9 +293,9 @@ mod tests {
         for k in 0..30 {
             let lambda = estimator.update(&[0.0, 0.0], &z(k)).unwrap().forgetting_factor;
             let sum = |count: usize| {
-                (0..count.min(k + 1)).map(|age| z(k - age)).fold([0.0; 3], |[a, b, c], [x, y]| {
-                    [a + x * x, b + x * y, c + y * y]
-                })
+                (0..count.min(k + 1))
+                    .map(|age| z(k - age))
+                    .fold([0.0; 3], |[a, b, c], [x, y]| [a + x * x, b + x * y, c + y * y])
             };
             let ([a, b, c], [e, f, g]) = (sum(3), sum(7));
             let trace = (a * g - 2.0 * b * f + c * e) / (e * g - f * f);

@@ -26,8 +26,8 @@
 //! regulators with variable forgetting factors*, Automatica 17(6), 1981.
 
 use super::limits::{largest, SMALLEST};
-use super::{AboutRate, Evidence, Limits, Needs, Next, Rate};
-use crate::parameter::{Parameter, Range, Value, Values};
+use super::{Evidence, Limits, Needs, Next, Rate};
+use crate::choice::{About, Parameter, Range, Value, Values};
 use crate::{Error, Memory, Real};
 
 const MEMORY: Parameter = Parameter::real(
@@ -45,12 +45,7 @@ const NOISE_VARIANCE: Parameter = Parameter::real(
 const LARGEST: Parameter = largest(1.0, Range::FRACTION);
 
 /// The registry entry.
-pub const ABOUT: AboutRate = AboutRate {
-    name: "fortescue",
-    type_name: "Fortescue",
-    source: include_str!("fortescue.rs"),
-    parameters: &[MEMORY, NOISE_VARIANCE, SMALLEST, LARGEST],
-};
+pub const ABOUT: About = About::new(&[MEMORY, NOISE_VARIANCE, SMALLEST, LARGEST]);
 
 /// Constant information; see [`self`](crate::rates::fortescue).
 #[derive(Clone, Copy, Debug)]
@@ -138,7 +133,9 @@ mod tests {
         let prior = Prior::scalar(memory, 2.0).unwrap();
         let mut estimator = Estimator::new(Exponential::new(), rate, Equal::new(), prior);
         let noise = [1.0, 0.0, 0.0, 4.0];
-        estimator.update_with_noise(&[1.0, 1.0, 2.0, 0.0], &[1.0, 4.0], Noise::Full(&noise)).unwrap();
+        estimator
+            .update_with_noise(&[1.0, 1.0, 2.0, 0.0], &[1.0, 4.0], Noise::Full(&noise))
+            .unwrap();
         let next = estimator.update(&[1.0, 0.0, 0.0, 1.0], &[0.0, 0.0]).unwrap().forgetting_factor;
         assert!((next - (1.0 - 15.0 / 11.0 / 100.0)).abs() < 1e-15);
     }

@@ -17,9 +17,9 @@
 //! - Use it for a design of your own. One that is to be saved, or to run without an interpreter, is
 //!   better a rate.
 
-use super::{AboutRate, Evidence, Needs, Rate};
-use crate::function::EvidenceFunction;
-use crate::parameter::{Kind, Parameter, Range, Value, Values};
+use super::{Evidence, Needs, Rate};
+use crate::choice::function::EvidenceFunction;
+use crate::choice::{About, Kind, Parameter, Range, Value, Values};
 use crate::{Error, Memory};
 
 const FUNCTION: Parameter = Parameter::elements(
@@ -32,12 +32,7 @@ const FUNCTION: Parameter = Parameter::elements(
 .required();
 
 /// The registry entry.
-pub const ABOUT: AboutRate = AboutRate {
-    name: "function",
-    type_name: "Function",
-    source: include_str!("function.rs"),
-    parameters: &[FUNCTION],
-};
+pub const ABOUT: About = About::new(&[FUNCTION]);
 
 /// λ from a function; see [`self`](crate::rates::function).
 ///
@@ -58,7 +53,7 @@ impl<M: Memory> Rate<M> for Function<M> {
     type State = ();
 
     fn configure(values: &dyn Values, _: M) -> Result<Self, Error> {
-        Self::given(&FUNCTION, values)
+        Self::from_values(&FUNCTION, values)
     }
 
     fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>)) {
@@ -72,11 +67,7 @@ impl<M: Memory> Rate<M> for Function<M> {
     }
 
     #[inline]
-    fn forgetting_factor(
-        &self,
-        (): &(),
-        evidence: &Evidence<'_, '_, M>,
-    ) -> Result<M::Real, Error> {
+    fn forgetting_factor(&self, (): &(), evidence: &Evidence<'_, '_, M>) -> Result<M::Real, Error> {
         self.ask(evidence)
     }
 }
@@ -84,12 +75,12 @@ impl<M: Memory> Rate<M> for Function<M> {
 #[cfg(test)]
 mod tests {
     use super::Function;
-    use crate::parameter::{Value, Values};
+    use crate::choice::Defaults;
+    use crate::choice::{Value, Values};
     use crate::rates::{AnyRate, Rate};
-    use crate::weighting::AnyWeighting;
     use crate::rules::Rule;
-    use crate::parameter::Defaults;
     use crate::saved::AnyEstimator;
+    use crate::weightings::AnyWeighting;
     use crate::{Dynamic, Error, Estimator, Prior};
 
     fn estimator(function: Function<Dynamic<f64>>) -> AnyEstimator<f64> {

@@ -33,8 +33,8 @@
 
 use super::averages::{Averages, Memories};
 use super::limits::{largest, SMALLEST};
-use super::{AboutRate, Evidence, Limits, Rate};
-use crate::parameter::{Parameter, Range, Value, Values};
+use super::{Evidence, Limits, Rate};
+use crate::choice::{About, Parameter, Range, Value, Values};
 use crate::state::{is_factor, State, Visitor};
 use crate::{Error, Memory, Real};
 
@@ -47,18 +47,13 @@ pub(super) const STEP_SIZE: Parameter = Parameter::real(
 const LARGEST: Parameter = largest(0.9999, Range::INNER_FRACTION);
 
 /// The registry entry.
-pub const ABOUT: AboutRate = AboutRate {
-    name: "gradient",
-    type_name: "Gradient",
-    source: include_str!("gradient.rs"),
-    parameters: &[
-        STEP_SIZE,
-        Memories::<f64>::PARAMETERS[0],
-        Memories::<f64>::PARAMETERS[1],
-        SMALLEST,
-        LARGEST,
-    ],
-};
+pub const ABOUT: About = About::new(&[
+    STEP_SIZE,
+    Memories::<f64>::PARAMETERS[0],
+    Memories::<f64>::PARAMETERS[1],
+    SMALLEST,
+    LARGEST,
+]);
 
 /// λ down the modelled error; see [`self`](crate::rates::gradient).
 #[derive(Clone, Copy, Debug)]

@@ -1,6 +1,6 @@
 //! The interval that a rate keeps λ in.
 
-use crate::parameter::{Parameter, Range, Value, Values};
+use crate::choice::{Parameter, Range, Value, Values};
 use crate::{Error, Real};
 
 /// The smallest λ of a design that adapts.

@@ -1,8 +1,11 @@
-//! How much to forget: one file per design of the forgetting factor λ_k, one line per design in
-//! the registry below. Every rule that uses a forgetting factor takes any of them.
+//! How much to forget: λ of each sample. A number is the rate `constant`; a rate goes in the place
+//! of the forgetting factor of any rule that takes one.
+//!
+//! One file per design of the forgetting factor λ_k, one line per design in the registry below.
 
-use crate::parameter::{Parameter, Value, Values};
-use crate::state::{State, Visitor};
+use crate::choice::registry::registry;
+use crate::choice::{Value, Values};
+use crate::state::State;
 use crate::{Error, Memory};
 
 mod averages;
@@ -16,19 +19,6 @@ pub use averages::{Averages, Memories};
 pub use limits::Limits;
 pub use next::Next;
 pub use windows::Windows;
-
-/// What the registry says of a rate.
-#[derive(Clone, Copy, Debug)]
-pub struct AboutRate {
-    /// the registry name, which is also the name of the file
-    pub name: &'static str,
-    /// the name of the type
-    pub type_name: &'static str,
-    /// the text of the file; its header (`//!`) is the documentation
-    pub source: &'static str,
-    /// the parameters
-    pub parameters: &'static [Parameter],
-}
 
 /// A design of the forgetting factor.
 pub trait Rate<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
@@ -77,143 +67,32 @@ pub trait Rate<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
     }
 }
 
-macro_rules! registry {
-    ($($(#[$only:meta])* $module:ident :: $Rate:ident,)*) => {
-        $(
-            $(#[$only])*
-            pub mod $module;
-            $(#[$only])*
-            pub use $module::$Rate;
-        )*
-
-        /// Every rate: its name, parameters and documentation.
-        pub const RATES: &[AboutRate] = &[$($(#[$only])* $module::ABOUT),*];
-
-        /// Any rate of the registry, chosen by name at run time.
-        #[derive(Clone, Debug)]
-        #[allow(missing_docs, reason = "each variant is the rate of that name")]
-        pub enum AnyRate<M: Memory> {
-            $($(#[$only])* $Rate($Rate<M>),)*
-        }
-
-        /// The state of any rate of the registry.
-        #[derive(Clone, Debug)]
-        #[allow(missing_docs, reason = "each variant is the state of the rate of that name")]
-        pub enum AnyRateState<M: Memory> {
-            $($(#[$only])* $Rate(<$Rate<M> as Rate<M>>::State),)*
-        }
-
-        impl<M: Memory> AnyRate<M> {
-            /// The rate called `name`, with these parameter values.
-            ///
-            /// # Errors
-            /// [`Error::Unknown`] for a name that is not in the registry, else those of the rate.
-            pub fn named(name: &str, values: &dyn Values, memory: M) -> Result<Self, Error> {
-                match name {
-                    $($(#[$only])* stringify!($module) => {
-                        <$Rate<M> as Rate<M>>::configure(values, memory).map(Self::$Rate)
-                    })*
-                    _ => Err(Error::Unknown { parameter: "rate" }),
-                }
-            }
-
-            /// The entry of this rate in [`RATES`].
-            pub fn about(&self) -> AboutRate {
-                match self {
-                    $($(#[$only])* Self::$Rate(_) => $module::ABOUT,)*
-                }
-            }
-        }
-
-        impl<M: Memory> State<M::Real> for AnyRateState<M> {
-            fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
-                match self {
-                    $($(#[$only])* Self::$Rate(state) => state.visit(visitor),)*
-                }
-            }
-
-            fn is_sound(&self) -> bool {
-                match self {
-                    $($(#[$only])* Self::$Rate(state) => State::<M::Real>::is_sound(state),)*
-                }
-            }
-        }
-
-        impl<M: Memory> Rate<M> for AnyRate<M> {
-            type State = AnyRateState<M>;
-
-            fn configure(_: &dyn Values, _: M) -> Result<Self, Error> {
-                Err(Error::Missing { parameter: "rate" })
-            }
-
-            fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>)) {
-                match self {
-                    $($(#[$only])* Self::$Rate(rate) => rate.describe(each),)*
-                }
-            }
-
-            fn start(&self, memory: M) -> Self::State {
-                match self {
-                    $($(#[$only])* Self::$Rate(rate) => AnyRateState::$Rate(rate.start(memory)),)*
-                }
-            }
-
-            #[inline]
-            fn needs(&self) -> Needs {
-                match self {
-                    $($(#[$only])* Self::$Rate(rate) => rate.needs(),)*
-                }
-            }
-
-            fn constant(&self) -> Option<M::Real> {
-                match self {
-                    $($(#[$only])* Self::$Rate(rate) => rate.constant(),)*
-                }
-            }
-
-            #[inline]
-            fn forgetting_factor(
-                &self,
-                state: &Self::State,
-                evidence: &Evidence<'_, '_, M>,
-            ) -> Result<M::Real, Error> {
-                match (self, state) {
-                    $($(#[$only])* (Self::$Rate(rate), AnyRateState::$Rate(state)) => {
-                        rate.forgetting_factor(state, evidence)
-                    })*
-                    _ => Err(Error::State { reason: "the state is that of another rate" }),
-                }
-            }
-
-            #[inline]
-            fn learn(
-                &self,
-                state: &mut Self::State,
-                evidence: &Evidence<'_, '_, M>,
-                lambda: M::Real,
-            ) {
-                match (self, state) {
-                    $($(#[$only])* (Self::$Rate(rate), AnyRateState::$Rate(state)) => {
-                        rate.learn(state, evidence, lambda);
-                    })*
-                    _ => {}
-                }
-            }
-        }
-    };
-}
-
 registry! {
-    constant::Constant,
-    prediction_error::PredictionError,
-    fortescue::Fortescue,
-    noise_power::NoisePower,
-    gradient::Gradient,
-    exact_gradient::ExactGradient,
-    rms_ratio::RmsRatio,
-    f_test::FTest,
-    unity_zone::UnityZone,
-    schedule::Schedule,
-    #[cfg(feature = "alloc")]
-    function::Function,
+    "rate", "rates", RATES, AnyRate [AnyRateState]: Rate {
+        #[inline]
+        fn needs(&self) -> Needs;
+        fn constant(&self) -> Option<M::Real>;
+        #[inline]
+        fn forgetting_factor(
+            &self,
+            state: &State,
+            evidence: &Evidence<'_, '_, M>,
+        ) -> Result<M::Real, Error>;
+        #[inline]
+        fn learn(&self, state: &mut State, evidence: &Evidence<'_, '_, M>, lambda: M::Real);
+    }
+    entries {
+        constant::Constant,
+        prediction_error::PredictionError,
+        fortescue::Fortescue,
+        noise_power::NoisePower,
+        gradient::Gradient,
+        exact_gradient::ExactGradient,
+        rms_ratio::RmsRatio,
+        f_test::FTest,
+        unity_zone::UnityZone,
+        schedule::Schedule,
+        #[cfg(feature = "alloc")]
+        function::Function,
+    }
 }

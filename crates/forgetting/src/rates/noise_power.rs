@@ -32,8 +32,8 @@
 
 use super::averages::{Averages, Memories};
 use super::limits::{largest, SMALLEST};
-use super::{AboutRate, Evidence, Limits, Needs, Rate};
-use crate::parameter::{Parameter, Range, Value, Values};
+use super::{Evidence, Limits, Needs, Rate};
+use crate::choice::{About, Parameter, Range, Value, Values};
 use crate::state::{is_factor, State, Visitor};
 use crate::{Error, Memory, Real};
 
@@ -52,19 +52,14 @@ const FLOOR: Parameter = Parameter::real(
 const LARGEST: Parameter = largest(0.9999, Range::FRACTION);
 
 /// The registry entry.
-pub const ABOUT: AboutRate = AboutRate {
-    name: "noise_power",
-    type_name: "NoisePower",
-    source: include_str!("noise_power.rs"),
-    parameters: &[
-        Memories::<f64>::PARAMETERS[0],
-        Memories::<f64>::PARAMETERS[1],
-        RATIO,
-        FLOOR,
-        SMALLEST,
-        LARGEST,
-    ],
-};
+pub const ABOUT: About = About::new(&[
+    Memories::<f64>::PARAMETERS[0],
+    Memories::<f64>::PARAMETERS[1],
+    RATIO,
+    FLOOR,
+    SMALLEST,
+    LARGEST,
+]);
 
 /// λ from the power of error and noise; see [`self`](crate::rates::noise_power).
 #[derive(Clone, Copy, Debug)]
@@ -165,7 +160,7 @@ impl<M: Memory> Rate<M> for NoisePower<M> {
 #[cfg(test)]
 mod tests {
     use super::{Limits, Memories, NoisePower};
-    use crate::{Equal, Estimator, Fixed, Exponential, Prior};
+    use crate::{Equal, Estimator, Exponential, Fixed, Prior};
 
     /// n = 1, K_a = 1 and K_b = 2: A = e², B the mean of both; λ = 1 at first.
     #[test]

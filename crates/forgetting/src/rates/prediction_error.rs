@@ -28,8 +28,8 @@
 //! techniques*, 1987.
 
 use super::limits::{largest, SMALLEST};
-use super::{AboutRate, Evidence, Limits, Needs, Rate};
-use crate::parameter::{Parameter, Range, Value, Values};
+use super::{Evidence, Limits, Needs, Rate};
+use crate::choice::{About, Parameter, Range, Value, Values};
 use crate::{Error, Memory, Real};
 
 const SENSITIVITY: Parameter = Parameter::real(
@@ -41,12 +41,7 @@ const SENSITIVITY: Parameter = Parameter::real(
 const LARGEST: Parameter = largest(0.999, Range::FRACTION);
 
 /// The registry entry.
-pub const ABOUT: AboutRate = AboutRate {
-    name: "prediction_error",
-    type_name: "PredictionError",
-    source: include_str!("prediction_error.rs"),
-    parameters: &[SENSITIVITY, SMALLEST, LARGEST],
-};
+pub const ABOUT: About = About::new(&[SENSITIVITY, SMALLEST, LARGEST]);
 
 /// λ from the prediction error; see [`self`](crate::rates::prediction_error).
 #[derive(Clone, Copy, Debug)]
@@ -85,11 +80,7 @@ impl<M: Memory> Rate<M> for PredictionError<M> {
     }
 
     #[inline]
-    fn forgetting_factor(
-        &self,
-        (): &(),
-        evidence: &Evidence<'_, '_, M>,
-    ) -> Result<M::Real, Error> {
+    fn forgetting_factor(&self, (): &(), evidence: &Evidence<'_, '_, M>) -> Result<M::Real, Error> {
         let Evidence { squared_error, leverage, rows, .. } = *evidence;
         let effect = squared_error / (self.sensitivity + squared_error);
         let spread = M::Real::from_f64(rows as f64) + leverage;

@@ -27,8 +27,8 @@
 //! least squares with variable-rate forgetting*, Automatica 119, 2020.
 
 use super::limits::{largest, SMALLEST};
-use super::{AboutRate, Evidence, Limits, Rate, Windows};
-use crate::parameter::{Parameter, Range, Value, Values};
+use super::{Evidence, Limits, Rate, Windows};
+use crate::choice::{About, Parameter, Range, Value, Values};
 use crate::state::{State, Visitor};
 use crate::{Error, Memory, Real};
 use core::marker::PhantomData;
@@ -42,18 +42,8 @@ pub(super) const SENSITIVITY: Parameter = Parameter::real(
 const LARGEST: Parameter = largest(1.0, Range::FRACTION);
 
 /// The registry entry.
-pub const ABOUT: AboutRate = AboutRate {
-    name: "rms_ratio",
-    type_name: "RmsRatio",
-    source: include_str!("rms_ratio.rs"),
-    parameters: &[
-        SENSITIVITY,
-        Windows::PARAMETERS[0],
-        Windows::PARAMETERS[1],
-        SMALLEST,
-        LARGEST,
-    ],
-};
+pub const ABOUT: About =
+    About::new(&[SENSITIVITY, Windows::PARAMETERS[0], Windows::PARAMETERS[1], SMALLEST, LARGEST]);
 
 /// λ from the growth of the error; see [`self`](crate::rates::rms_ratio).
 #[derive(Clone, Copy, Debug)]
@@ -150,7 +140,7 @@ impl<M: Memory> Rate<M> for RmsRatio<M> {
 #[cfg(test)]
 mod tests {
     use super::{Limits, RmsRatio, Windows};
-    use crate::{Equal, Error, Estimator, Fixed, Exponential, Prior};
+    use crate::{Equal, Error, Estimator, Exponential, Fixed, Prior};
 
     #[test]
     fn compares_the_last_errors_with_those_before() {

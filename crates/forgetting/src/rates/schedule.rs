@@ -15,8 +15,8 @@
 //! - Cost: O(1). State: none, the list is configuration.
 //! - Use it to forget the start fast, or when it is known when parameters change.
 
-use super::{AboutRate, Evidence, Rate};
-use crate::parameter::{Kind, Parameter, Range, Value, Values};
+use super::{Evidence, Rate};
+use crate::choice::{About, Kind, Parameter, Range, Value, Values};
 use crate::{Error, Memory, Real};
 
 const FACTORS: Parameter = Parameter::elements(
@@ -30,12 +30,7 @@ const END: Parameter =
     Parameter::word("end", &["hold", "repeat"], "what follows the last factor of the list");
 
 /// The registry entry.
-pub const ABOUT: AboutRate = AboutRate {
-    name: "schedule",
-    type_name: "Schedule",
-    source: include_str!("schedule.rs"),
-    parameters: &[FACTORS, END],
-};
+pub const ABOUT: About = About::new(&[FACTORS, END]);
 
 /// What follows the last factor of a list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,12 +61,7 @@ impl<M: Memory> Schedule<M> {
         Self::of(memory, factors.len(), &|k| factors[k].to_f64(), end)
     }
 
-    fn of(
-        memory: M,
-        count: usize,
-        factor: &dyn Fn(usize) -> f64,
-        end: End,
-    ) -> Result<Self, Error> {
+    fn of(memory: M, count: usize, factor: &dyn Fn(usize) -> f64, end: End) -> Result<Self, Error> {
         let longest = memory.longest_list();
         if count == 0 || count > longest {
             let expected = count.clamp(1, longest.max(1));
@@ -106,10 +96,13 @@ impl<M: Memory> Rate<M> for Schedule<M> {
     fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>)) {
         let factors = self.factors.as_ref();
         let elements = |k: usize| factors[k].to_f64();
-        each(FACTORS.name, match self.number {
-            true => Value::Real(elements(0)),
-            false => Value::Matrix { rows: 1, columns: self.count, elements: &elements },
-        });
+        each(
+            FACTORS.name,
+            match self.number {
+                true => Value::Real(elements(0)),
+                false => Value::Matrix { rows: 1, columns: self.count, elements: &elements },
+            },
+        );
         let word = match self.end {
             End::Hold => "hold",
             End::Repeat => "repeat",
@@ -120,11 +113,7 @@ impl<M: Memory> Rate<M> for Schedule<M> {
     fn start(&self, _: M) {}
 
     #[inline]
-    fn forgetting_factor(
-        &self,
-        (): &(),
-        evidence: &Evidence<'_, '_, M>,
-    ) -> Result<M::Real, Error> {
+    fn forgetting_factor(&self, (): &(), evidence: &Evidence<'_, '_, M>) -> Result<M::Real, Error> {
         let (k, count) = (evidence.samples, self.count as u64);
         let place = match self.end {
             End::Hold => k.min(count - 1),

@@ -24,8 +24,8 @@
 //! forgetting factor with unity zone*, Electronics Letters 27(23), 1991.
 
 use super::limits::{largest, SMALLEST};
-use super::{AboutRate, Evidence, Limits, Rate};
-use crate::parameter::{Parameter, Range, Value, Values};
+use super::{Evidence, Limits, Rate};
+use crate::choice::{About, Parameter, Range, Value, Values};
 use crate::{Error, Memory, Real};
 
 const SENSITIVITY: Parameter = Parameter::real(
@@ -37,12 +37,7 @@ const SENSITIVITY: Parameter = Parameter::real(
 const LARGEST: Parameter = largest(1.0, Range::FRACTION);
 
 /// The registry entry.
-pub const ABOUT: AboutRate = AboutRate {
-    name: "unity_zone",
-    type_name: "UnityZone",
-    source: include_str!("unity_zone.rs"),
-    parameters: &[SENSITIVITY, SMALLEST, LARGEST],
-};
+pub const ABOUT: About = About::new(&[SENSITIVITY, SMALLEST, LARGEST]);
 
 /// λ = 1 within the noise; see [`self`](crate::rates::unity_zone).
 #[derive(Clone, Copy, Debug)]
@@ -76,11 +71,7 @@ impl<M: Memory> Rate<M> for UnityZone<M> {
     fn start(&self, _: M) {}
 
     #[inline]
-    fn forgetting_factor(
-        &self,
-        (): &(),
-        evidence: &Evidence<'_, '_, M>,
-    ) -> Result<M::Real, Error> {
+    fn forgetting_factor(&self, (): &(), evidence: &Evidence<'_, '_, M>) -> Result<M::Real, Error> {
         let squared = evidence.squared_error / M::Real::from_f64(evidence.rows as f64);
         let level = libm::floor((self.sensitivity * squared).to_f64() + 0.5);
         let (smallest, one) = (self.limits.smallest(), M::Real::ONE);
@@ -92,7 +83,7 @@ impl<M: Memory> Rate<M> for UnityZone<M> {
 #[cfg(test)]
 mod tests {
     use super::{Limits, UnityZone};
-    use crate::{Equal, Estimator, Fixed, Exponential, Prior};
+    use crate::{Equal, Estimator, Exponential, Fixed, Prior};
 
     #[test]
     fn halves_the_way_for_each_unit_beyond_the_zone() {

@@ -1,6 +1,6 @@
 //! Two windows over the last samples, a short one inside a long one.
 
-use crate::parameter::{Parameter, Range, Value, Values};
+use crate::choice::{Parameter, Range, Value, Values};
 use crate::{Error, Memory};
 
 const SHORT: Parameter = Parameter::whole(

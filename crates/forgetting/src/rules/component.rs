@@ -23,13 +23,16 @@
 //! Reference: M. West, J. Harrison, *Bayesian Forecasting and Dynamic Models*, 2nd edition,
 //! Springer, 1997, section 6.3.
 
-use super::{About, Claim, Forgetting, Forgotten, Step};
-use crate::blocks::Blocks;
-use forgetting_kernels::kernel::{functions, layout};
-use crate::parameter::{Kind, Parameter, Range, Value, Values};
+use super::blocks::Blocks;
+use super::{Forgetting, Forgotten, Step};
+use crate::choice::{
+    About, Bounds, Constants, Guarantee, Guarantees, Input, Kind, Parameter, Range, Setting, Value,
+    Values,
+};
 use crate::state::{State, Visitor};
 use crate::{Error, Factor, Memory, Real};
 use core::ops::Range as Places;
+use forgetting_kernels::kernel::{functions, layout};
 
 const BLOCKS: Parameter = Parameter::elements(
     "blocks",
@@ -49,16 +52,17 @@ const FACTORS: Parameter = Parameter::elements(
 
 /// The registry entry.
 pub const ABOUT: About = About {
-    name: "component",
-    type_name: "Component",
-    source: include_str!("component.rs"),
-    parameters: &[BLOCKS, FACTORS],
     forgetting_factor: true,
-    largest_rows: None,
-    proper: Claim::Always,
-    bounded_above: Claim::No,
-    bounded_below: Claim::If("forgetting factors <= lambda_max < 1, regressors bounded"),
     cost: "O(n^3)",
+    guarantees: Some(Guarantees {
+        proper: Guarantee::ALWAYS,
+        bounded_above: Guarantee::no(Setting::usual(Input::Fixed)),
+        bounded_below: Guarantee::when(
+            "forgetting factors <= lambda_max < 1, regressors bounded",
+            Setting::usual(Input::Exciting(1)).factor(1.0),
+        ),
+    }),
+    ..About::new(&[BLOCKS, FACTORS])
 };
 
 /// Forgets each block at its own rate; see [`self`](crate::rules::component).
@@ -139,6 +143,13 @@ impl<M: Memory> Forgetting<M> for Component<M> {
 
     fn start(&self, memory: M) -> BlockRoot<M> {
         BlockRoot { columns: memory.packed(), diagonal: memory.vector() }
+    }
+
+    fn bounds(&self, constants: &Constants) -> Bounds {
+        let common = M::Real::from_f64(constants.forgetting_factors.1);
+        let factors = (0..self.blocks.count()).map(|b| self.factor(b, common).to_f64());
+        let below = constants.least_remembered(factors.fold(0.0, f64::max));
+        Bounds { below, above: None }
     }
 
     #[inline]

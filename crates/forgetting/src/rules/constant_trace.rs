@@ -24,8 +24,12 @@
 //! Reference: K. J. Åström, B. Wittenmark, *Adaptive Control*, 1995, chapter 11; as a case of
 //! Theorem 1, derived here.
 
-use super::{About, Claim, Forgetting, Forgotten, Step};
-use crate::parameter::{Parameter, Range, Value, Values};
+use super::{Forgetting, Forgotten, Step};
+use crate::choice::guarantee::positive;
+use crate::choice::{
+    About, Bounds, Constants, Guarantee, Guarantees, Input, Parameter, Range, Setting, Value,
+    Values,
+};
 use crate::state::{State, Visitor};
 use crate::{Error, Memory, Real};
 
@@ -44,16 +48,16 @@ const FLOOR: Parameter = Parameter::real(
 
 /// The registry entry.
 pub const ABOUT: About = About {
-    name: "constant_trace",
-    type_name: "ConstantTrace",
-    source: include_str!("constant_trace.rs"),
-    parameters: &[LEVEL, FLOOR],
-    forgetting_factor: false,
-    largest_rows: None,
-    proper: Claim::No,
-    bounded_above: Claim::Always,
-    bounded_below: Claim::If("regressors bounded"),
     cost: "O(n^3)",
+    guarantees: Some(Guarantees {
+        proper: Guarantee::no(
+            Setting::usual(Input::Fixed)
+                .with(&[("level", Value::Real(1.0)), ("floor", Value::Real(0.2))]),
+        ),
+        bounded_above: Guarantee::ALWAYS,
+        bounded_below: Guarantee::when("regressors bounded", Setting::usual(Input::Scaled(1e6))),
+    }),
+    ..About::new(&[LEVEL, FLOOR])
 };
 
 /// Holds the trace of P; see [`self`](crate::rules::constant_trace).
@@ -108,6 +112,15 @@ impl<M: Memory> Forgetting<M> for ConstantTrace<M> {
 
     fn is_bounded(&self) -> bool {
         true
+    }
+
+    fn bounds(&self, constants: &Constants) -> Bounds {
+        let (level, floor) = (self.level.to_f64(), self.floor.to_f64());
+        let n = constants.parameters as f64;
+        Bounds {
+            below: constants.least_after(floor),
+            above: positive(n * level - (n - 1.0) * floor),
+        }
     }
 
     fn follow(&self, state: &mut Measured, _: Step<'_, '_, M>) {

@@ -45,11 +45,13 @@
 //! regulator with covariance resetting*, IEE Proceedings D 130, 1983; E. S. Page, *Continuous
 //! inspection schemes*, Biometrika 41, 1954 (CUSUM).
 
-use super::{About, Claim, Forgetting, Forgotten, InnerRule, Step};
-use crate::criterion::{Criterion, Watch, CRITERION, DRIFT, MEMORY, PERIOD, THRESHOLD};
-use crate::parameter::{Defaults, Kind, Parameter, Range, Value, Values};
-use crate::state::{State, Visitor};
+use super::criterion::{Criterion, Watch, CRITERION, DRIFT, MEMORY, PERIOD, THRESHOLD};
+use super::{Forgetting, Forgotten, InnerRule, Step};
+use crate::choice::{
+    About, Defaults, Guarantee, Guarantees, Input, Kind, Parameter, Range, Setting, Value, Values,
+};
 use crate::rules::root::Root;
+use crate::state::{State, Visitor};
 use crate::{Error, Factor, Memory, Real};
 use core::marker::PhantomData;
 
@@ -64,18 +66,25 @@ const COVARIANCE: Parameter = Parameter::elements(
 
 /// The registry entry.
 pub const ABOUT: About = About {
-    name: "covariance_resetting",
-    type_name: "CovarianceResetting",
-    source: include_str!("covariance_resetting.rs"),
-    parameters: &[RULE, CRITERION, COVARIANCE, PERIOD, THRESHOLD, DRIFT, MEMORY],
-    forgetting_factor: false,
-    largest_rows: None,
-    proper: Claim::If("P <= covariance at every reset, and the rule is"),
-    bounded_above: Claim::If("the rule's is"),
-    bounded_below: Claim::If(
-        "regressors bounded, and criterion is period or smallest_eigenvalue or the rule's is",
-    ),
     cost: "that of the rule; O(n^3) more for smallest_eigenvalue",
+    guarantees: Some(Guarantees {
+        proper: Guarantee::when(
+            "P <= covariance at every reset, and the rule is",
+            Setting::usual(Input::Silent)
+                .with(&[("covariance", Value::Real(1.0)), ("period", Value::Real(1.0))]),
+        ),
+        bounded_above: Guarantee::when(
+            "the rule's is",
+            Setting::usual(Input::Silent)
+                .with(&[("rule", Value::Word("exponential")), ("criterion", Value::Word("trace"))]),
+        ),
+        bounded_below: Guarantee::when(
+            "regressors bounded, and criterion is period or smallest_eigenvalue or the rule's is",
+            Setting::usual(Input::Exciting(1))
+                .with(&[("criterion", Value::Word("trace")), ("threshold", Value::Real(1e-12))]),
+        ),
+    }),
+    ..About::new(&[RULE, CRITERION, COVARIANCE, PERIOD, THRESHOLD, DRIFT, MEMORY])
 };
 
 /// Resets P when a criterion is met; see [`self`](crate::rules::covariance_resetting).
@@ -85,7 +94,7 @@ pub const ABOUT: About = About {
 pub struct CovarianceResetting<M: Memory, F: Forgetting<M> = InnerRule<M>> {
     rule: F,
     criterion: Criterion<M::Real>,
-    given: Root<M>,
+    root: Root<M>,
     covariance: Factor<M>,
 }
 
@@ -113,11 +122,7 @@ impl<M: Memory, F: Forgetting<M>> CovarianceResetting<M, F> {
     ///
     /// # Errors
     /// [`Error::Indefinite`] names `covariance` unless it is positive definite.
-    pub fn new(
-        rule: F,
-        criterion: Criterion<M::Real>,
-        covariance: Root<M>,
-    ) -> Result<Self, Error> {
+    pub fn new(rule: F, criterion: Criterion<M::Real>, covariance: Root<M>) -> Result<Self, Error> {
         let memory = covariance.memory();
         let n = memory.parameters();
         let mut dense = memory.square();
@@ -126,7 +131,7 @@ impl<M: Memory, F: Forgetting<M>> CovarianceResetting<M, F> {
         }
         let mut factor = Factor::scalar(memory, M::Real::ONE)?;
         factor.replace(dense.as_mut(), COVARIANCE.name)?;
-        Ok(Self { rule, criterion, given: covariance, covariance: factor })
+        Ok(Self { rule, criterion, root: covariance, covariance: factor })
     }
 }
 
@@ -147,7 +152,7 @@ impl<M: Memory, F: Forgetting<M>> Forgetting<M> for CovarianceResetting<M, F> {
         let values = &Described(&self.rule, PhantomData);
         each(RULE.name, Value::Choice { name: self.rule.name(), values });
         self.criterion.describe(each);
-        self.given.describe(COVARIANCE.name, each);
+        self.root.describe(COVARIANCE.name, each);
     }
 
     fn start(&self, memory: M) -> Self::State {
@@ -165,14 +170,14 @@ impl<M: Memory, F: Forgetting<M>> Forgetting<M> for CovarianceResetting<M, F> {
     #[inline]
     fn forget(&self, state: &mut Self::State, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         let Step { factor, sample, forgetting_factor, work } = step;
-        let seen = state.watch.look(&self.criterion, factor, sample, work.first.as_mut());
+        let progress = state.watch.look(&self.criterion, factor, sample, work.first.as_mut());
         let inner = Step { factor: &mut *factor, sample, forgetting_factor, work };
         let forgotten = forget_between(&self.rule, &mut state.rule, inner)?;
         if forgotten.skipped.is_some() {
             return Ok(forgotten);
         }
-        state.watch.remember(seen);
-        if !seen.met {
+        state.watch.remember(progress);
+        if !progress.met {
             return Ok(forgotten);
         }
         factor.copy_from(&self.covariance);
@@ -226,7 +231,8 @@ mod tests {
         let silence = Dense::new(1, &[0.0; 3]);
         for k in 0..6 {
             let outcome = forget(&rule, &mut state, &p, &phi, 0.9);
-            let expected = if k > 0 && k % 2 == 0 { 7.0 * Dense::identity(3) } else { plain.clone() };
+            let expected =
+                if k > 0 && k % 2 == 0 { 7.0 * Dense::identity(3) } else { plain.clone() };
             assert_eq!(outcome.covariance, expected, "sample {k}");
             // skipped by the rule: not counted
             assert!(forget(&rule, &mut state, &p, &silence, 0.9).forgotten.skipped.is_some());

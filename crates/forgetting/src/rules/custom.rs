@@ -22,15 +22,15 @@
 //! stability and robustness guarantees*, IEEE Transactions on Automatic Control, 2024,
 //! Theorem 1.
 
-use super::{About, Claim, Forgetting, Forgotten, Step};
+use super::{Forgetting, Forgotten, Step};
+#[cfg(feature = "alloc")]
+use crate::choice::function::{Argument, MatrixFunction};
+use crate::choice::{About, Guarantee, Guarantees, Kind, Parameter, Range, Value, Values};
 use crate::covariance::dense::check_symmetric;
-#[cfg(feature = "alloc")]
-use crate::function::{Argument, MatrixFunction};
-#[cfg(feature = "alloc")]
-use alloc::sync::Arc;
-use crate::parameter::{Kind, Parameter, Range, Value, Values};
 use crate::state::{State, Visitor};
 use crate::{Error, Memory, Real};
+#[cfg(feature = "alloc")]
+use alloc::sync::Arc;
 use core::marker::PhantomData;
 
 const FORGETTING_MATRIX: Parameter = Parameter::elements(
@@ -44,16 +44,13 @@ const FORGETTING_MATRIX: Parameter = Parameter::elements(
 
 /// The registry entry.
 pub const ABOUT: About = About {
-    name: "custom",
-    type_name: "Custom",
-    source: include_str!("custom.rs"),
-    parameters: &[FORGETTING_MATRIX],
-    forgetting_factor: false,
-    largest_rows: None,
-    proper: Claim::If("forgetting_matrix >= 0"),
-    bounded_above: Claim::If("R - forgetting_matrix >= c * I, c > 0"),
-    bounded_below: Claim::If("R - forgetting_matrix bounded, regressors bounded"),
     cost: "O(n^3) and the function",
+    guarantees: Some(Guarantees {
+        proper: Guarantee::of_function("forgetting_matrix >= 0"),
+        bounded_above: Guarantee::of_function("R - forgetting_matrix >= c * I, c > 0"),
+        bounded_below: Guarantee::of_function("R - forgetting_matrix bounded, regressors bounded"),
+    }),
+    ..About::new(&[FORGETTING_MATRIX])
 };
 
 /// What says F: in Rust, any closure of this form.
@@ -81,7 +78,7 @@ pub trait ForgettingMatrix<T: Real>: Clone + Send + Sync {
     ///
     /// # Errors
     /// [`Error::Missing`] where a function cannot be one.
-    fn given(values: &dyn Values) -> Result<Self, Error> {
+    fn from_values(values: &dyn Values) -> Result<Self, Error> {
         let _ = values;
         Err(Error::Missing { parameter: FORGETTING_MATRIX.name })
     }
@@ -97,13 +94,13 @@ where
     }
 }
 
-/// A function that was given by name, at run time.
+/// A function chosen at run time, shared by the clones of the rule.
 #[cfg(feature = "alloc")]
 #[derive(Clone, Debug)]
-pub struct Given<T>(Arc<dyn MatrixFunction>, PhantomData<T>);
+pub struct SharedFunction<T>(Arc<dyn MatrixFunction>, PhantomData<T>);
 
 #[cfg(feature = "alloc")]
-impl<T: Real> ForgettingMatrix<T> for Given<T> {
+impl<T: Real> ForgettingMatrix<T> for SharedFunction<T> {
     fn forgetting_matrix(&self, r: &[T], phi: &[T], e: &[T], f: &mut [T]) -> Result<(), Error> {
         let n = (0..=r.len()).find(|n| n * n >= r.len()).unwrap_or(1);
         let rows = phi.len() / n;
@@ -124,7 +121,7 @@ impl<T: Real> ForgettingMatrix<T> for Given<T> {
         Some(Value::Function(&self.0))
     }
 
-    fn given(values: &dyn Values) -> Result<Self, Error> {
+    fn from_values(values: &dyn Values) -> Result<Self, Error> {
         let function = match FORGETTING_MATRIX.look_up(values)? {
             Value::Function(function) => function.downcast_ref::<Arc<dyn MatrixFunction>>(),
             _ => None,
@@ -136,7 +133,7 @@ impl<T: Real> ForgettingMatrix<T> for Given<T> {
 
 /// The function of a rule that is made by name.
 #[cfg(feature = "alloc")]
-pub type Named<T> = Given<T>;
+pub type Named<T> = SharedFunction<T>;
 /// The function of a rule that is made by name; without `alloc` none can be.
 #[cfg(not(feature = "alloc"))]
 pub type Named<T> = fn(&[T], &[T], &[T], &mut [T]) -> Result<(), Error>;
@@ -187,7 +184,7 @@ impl<M: Memory, C: ForgettingMatrix<M::Real>> Forgetting<M> for Custom<M, C> {
     type State = Buffers<M>;
 
     fn configure(values: &dyn Values, _: M) -> Result<Self, Error> {
-        C::given(values).map(Self::new)
+        C::from_values(values).map(Self::new)
     }
 
     fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>)) {
@@ -206,7 +203,12 @@ impl<M: Memory, C: ForgettingMatrix<M::Real>> Forgetting<M> for Custom<M, C> {
         step.factor.reconstruct_information(information, matrix);
         matrix.fill(M::Real::ZERO);
         let sample = &step.sample;
-        self.function.forgetting_matrix(information, sample.regressors(), sample.errors(), matrix)?;
+        self.function.forgetting_matrix(
+            information,
+            sample.regressors(),
+            sample.errors(),
+            matrix,
+        )?;
         check_symmetric(FORGETTING_MATRIX.name, matrix, n)?;
         if matrix.iter().all(|f| *f == M::Real::ZERO) {
             return Ok(Forgotten::rank(0));

@@ -25,13 +25,15 @@
 //! Reference: B. Lai, D. S. Bernstein, *Exponential resetting and cyclic resetting recursive
 //! least squares*, IEEE Control Systems Letters 7, 2023.
 
-use forgetting_kernels::Kernels;
-use super::{About, Claim, Forgetting, Forgotten, Step};
-use forgetting_kernels::kernel::functions::dot;
-use crate::parameter::{Kind, Parameter, Range, Value, Values};
+use super::{Forgetting, Forgotten, Step};
+use crate::choice::{
+    About, Guarantee, Guarantees, Input, Kind, Parameter, Range, Setting, Value, Values,
+};
 use crate::rules::root::Root;
 use crate::state::{State, Visitor};
 use crate::{Error, Memory, Real};
+use forgetting_kernels::kernel::functions::dot;
+use forgetting_kernels::Kernels;
 
 const INFORMATION: Parameter = Parameter::elements(
     "information",
@@ -43,16 +45,20 @@ const INFORMATION: Parameter = Parameter::elements(
 
 /// The registry entry.
 pub const ABOUT: About = About {
-    name: "cyclic_resetting",
-    type_name: "CyclicResetting",
-    source: include_str!("cyclic_resetting.rs"),
-    parameters: &[INFORMATION],
     forgetting_factor: true,
-    largest_rows: None,
-    proper: Claim::No,
-    bounded_above: Claim::If("information is positive definite"),
-    bounded_below: Claim::If("forgetting factor <= lambda_max < 1, regressors bounded"),
     cost: "O((p + 1) n^2)",
+    guarantees: Some(Guarantees {
+        proper: Guarantee::no(Setting { variance: 100.0, ..Setting::usual(Input::Silent) }),
+        bounded_above: Guarantee::when(
+            "information is positive definite",
+            Setting::usual(Input::Silent).factor(0.99).with(&[("information", Value::Real(0.0))]),
+        ),
+        bounded_below: Guarantee::when(
+            "forgetting factor <= lambda_max < 1, regressors bounded",
+            Setting::usual(Input::Exciting(1)).factor(1.0),
+        ),
+    }),
+    ..About::new(&[INFORMATION])
 };
 
 /// Forgets towards R_∞ in cycles; see [`self`](crate::rules::cyclic_resetting).
@@ -137,7 +143,7 @@ fn insertion_weight<T: Kernels>(lambda: T, rank: usize, j: usize, row: &[T]) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::parameter::Defaults;
+    use crate::choice::Defaults;
     use crate::testing::{covariance, forget, memory, Dense};
 
     #[test]

@@ -32,12 +32,16 @@
 //! squares with data-dependent updating and forgetting factor for systems with bounded noise*,
 //! IEEE Transactions on Information Theory 33, 1987.
 
-use forgetting_kernels::Kernels;
-use super::{About, Claim, Forgetting, Forgotten, Skip, Step};
-use forgetting_kernels::kernel::functions::dot;
-use crate::parameter::{Parameter, Range, Value, Values};
+use super::{Forgetting, Forgotten, Skip, Step};
+use crate::choice::guarantee::positive;
+use crate::choice::{
+    About, Bounds, Constants, Guarantee, Guarantees, Input, Parameter, Range, Setting, Value,
+    Values,
+};
 use crate::state::{State, Visitor};
 use crate::{Error, Factor, Memory, Real, Sample};
+use forgetting_kernels::kernel::functions::dot;
+use forgetting_kernels::Kernels;
 
 const NOISE_BOUND: Parameter = Parameter::real(
     "noise_bound",
@@ -60,16 +64,13 @@ const INITIAL_RADIUS: Parameter = Parameter::real(
 
 /// The registry entry.
 pub const ABOUT: About = About {
-    name: "data_dependent",
-    type_name: "DataDependent",
-    source: include_str!("data_dependent.rs"),
-    parameters: &[NOISE_BOUND, LARGEST_WEIGHT, INITIAL_RADIUS],
-    forgetting_factor: false,
-    largest_rows: None,
-    proper: Claim::Always,
-    bounded_above: Claim::No,
-    bounded_below: Claim::If("regressors bounded"),
     cost: "O(p n^2)",
+    guarantees: Some(Guarantees {
+        proper: Guarantee::ALWAYS,
+        bounded_above: Guarantee::no(Setting { error: 1e6, ..Setting::usual(Input::Silent) }),
+        bounded_below: Guarantee::when("regressors bounded", Setting::usual(Input::Scaled(1e6))),
+    }),
+    ..About::new(&[NOISE_BOUND, LARGEST_WEIGHT, INITIAL_RADIUS])
 };
 
 /// Weighs by a bound on the noise; see [`self`](crate::rules::data_dependent).
@@ -145,6 +146,10 @@ impl<M: Memory> Forgetting<M> for DataDependent<M> {
             squared_radius: self.initial_radius * self.initial_radius,
             rotated: memory.errors(),
         }
+    }
+
+    fn bounds(&self, constants: &Constants) -> Bounds {
+        Bounds { below: positive(1.0 / constants.regressor_bound), above: None }
     }
 
     #[inline]
@@ -286,7 +291,9 @@ mod tests {
             assert!(at(mu) <= at(other) + 1e-13, "mu = {mu}, better: {other}");
         }
         // R ← (1 − μ) R, and √μ φ is measured
-        assert!((p.inverse().trace() * (1.0 - mu) - outcome.covariance.inverse().trace()).abs() < 1e-13);
+        assert!(
+            (p.inverse().trace() * (1.0 - mu) - outcome.covariance.inverse().trace()).abs() < 1e-13
+        );
         assert!(outcome.regressors.distance(&(mu.sqrt() * phi.clone())) < 1e-15);
     }
 

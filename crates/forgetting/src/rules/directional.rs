@@ -22,11 +22,14 @@
 //! Reference: L. Cao, H. M. Schwartz, *A directional forgetting algorithm based on the
 //! decomposition of the information matrix*, Automatica 36, 2000.
 
-use super::{About, Claim, Forgetting, Forgotten, Skip, Step};
-use crate::directions::forget_along_sample;
-use forgetting_kernels::kernel::form::{DeadZone, Form};
-use crate::parameter::{Parameter, Range, Value, Values};
+use super::along_sample::forget_along_sample;
+use super::{Forgetting, Forgotten, Skip, Step};
+use crate::choice::{
+    About, Bounds, Constants, Guarantee, Guarantees, Input, Parameter, Range, Setting, Value,
+    Values,
+};
 use crate::{Error, Memory, Real};
+use forgetting_kernels::kernel::form::{DeadZone, Form};
 
 const THRESHOLD: Parameter = Parameter::real(
     "threshold",
@@ -37,16 +40,21 @@ const THRESHOLD: Parameter = Parameter::real(
 
 /// The registry entry.
 pub const ABOUT: About = About {
-    name: "directional",
-    type_name: "Directional",
-    source: include_str!("directional.rs"),
-    parameters: &[THRESHOLD],
     forgetting_factor: true,
     largest_rows: Some(1),
-    proper: Claim::Always,
-    bounded_above: Claim::If("threshold > 0, forgetting factor >= lambda_min > 0"),
-    bounded_below: Claim::If("forgetting factor <= lambda_max < 1, regressors bounded"),
     cost: "O(n^2)",
+    guarantees: Some(Guarantees {
+        proper: Guarantee::ALWAYS,
+        bounded_above: Guarantee::when(
+            "threshold > 0, forgetting factor >= lambda_min > 0",
+            Setting::usual(Input::Fading(1e-6)).with(&[("threshold", Value::Real(0.0))]),
+        ),
+        bounded_below: Guarantee::when(
+            "forgetting factor <= lambda_max < 1, regressors bounded",
+            Setting::usual(Input::Exciting(1)).factor(1.0),
+        ),
+    }),
+    ..About::new(&[THRESHOLD])
 };
 
 /// Forgets in the direction of the regressor; see [`self`](crate::rules::directional).
@@ -80,6 +88,10 @@ impl<M: Memory> Forgetting<M> for Directional<M> {
 
     fn is_bounded(&self) -> bool {
         self.threshold > M::Real::ZERO
+    }
+
+    fn bounds(&self, constants: &Constants) -> Bounds {
+        constants.along_samples(self.threshold.to_f64())
     }
 
     #[inline]

@@ -32,8 +32,12 @@
 //! incorporating exponential resetting and forgetting*, International Journal of Control 47,
 //! 1988; as a case of Theorem 1, derived here.
 
-use super::{About, Claim, Forgetting, Forgotten, Step};
-use crate::parameter::{Parameter, Range, Value, Values};
+use super::{Forgetting, Forgotten, Step};
+use crate::choice::guarantee::positive;
+use crate::choice::{
+    About, Bounds, Constants, Guarantee, Guarantees, Input, Parameter, Range, Setting, Value,
+    Values,
+};
 use crate::covariance::spectrum::Spectrum;
 use crate::state::{is_finite, State, Visitor};
 use crate::{Error, Memory, Real};
@@ -55,16 +59,21 @@ const SATURATION: Parameter = Parameter::real(
 
 /// The registry entry.
 pub const ABOUT: About = About {
-    name: "efra",
-    type_name: "Efra",
-    source: include_str!("efra.rs"),
-    parameters: &[GAIN, INCREASE, SATURATION],
     forgetting_factor: true,
     largest_rows: Some(1),
-    proper: Claim::Always,
-    bounded_above: Claim::If("forgetting factor >= lambda_min > 0"),
-    bounded_below: Claim::If("forgetting factor <= lambda_max < 1, regressors bounded"),
     cost: "O(n^3)",
+    guarantees: Some(Guarantees {
+        proper: Guarantee::ALWAYS,
+        bounded_above: Guarantee::when(
+            "forgetting factor >= lambda_min > 0",
+            Setting::usual(Input::Silent).factor(1e-6),
+        ),
+        bounded_below: Guarantee::when(
+            "forgetting factor <= lambda_max < 1, regressors bounded",
+            Setting::usual(Input::Exciting(1)).factor(1.0).with(&[("increase", Value::Real(0.0))]),
+        ),
+    }),
+    ..About::new(&[GAIN, INCREASE, SATURATION])
 };
 
 /// Exponential forgetting and resetting; see [`self`](crate::rules::efra).
@@ -136,11 +145,13 @@ impl<M: Memory> Forgetting<M> for Efra<M> {
         true
     }
 
-    fn forget(
-        &self,
-        state: &mut Pending<M>,
-        step: Step<'_, '_, M>,
-    ) -> Result<Forgotten, Error> {
+    fn bounds(&self, constants: &Constants) -> Bounds {
+        let (smallest, _) = constants.forgetting_factors;
+        let grown = 1.0 / (4.0 * self.saturation.to_f64() * smallest * smallest);
+        Bounds { below: None, above: positive(self.increase.to_f64() + grown) }
+    }
+
+    fn forget(&self, state: &mut Pending<M>, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         let (lambda, n) = (step.forgetting_factor, step.factor.parameters());
         let growth = (M::Real::ONE - lambda) / lambda;
         self.check_growth(growth, n)?;

@@ -19,24 +19,27 @@
 //! Reference: A. Goel, A. L. Bruce, D. S. Bernstein, *Recursive least squares with
 //! variable-direction forgetting*, IEEE Control Systems Magazine 40(4), 2020, Theorem 1.
 
-use super::{About, Claim, Forgetting, Forgotten, Step};
-use forgetting_kernels::kernel::form::Form;
-use crate::parameter::{Value, Values};
+use super::{Forgetting, Forgotten, Step};
+use crate::choice::{
+    About, Bounds, Constants, Guarantee, Guarantees, Input, Setting, Value, Values,
+};
 use crate::{Error, Memory, Real};
 use core::marker::PhantomData;
+use forgetting_kernels::kernel::form::Form;
 
 /// The registry entry.
 pub const ABOUT: About = About {
-    name: "exponential",
-    type_name: "Exponential",
-    source: include_str!("exponential.rs"),
-    parameters: &[],
     forgetting_factor: true,
-    largest_rows: None,
-    proper: Claim::Always,
-    bounded_above: Claim::No,
-    bounded_below: Claim::If("forgetting factor <= lambda_max < 1, regressors bounded"),
     cost: "O(p n^2)",
+    guarantees: Some(Guarantees {
+        proper: Guarantee::ALWAYS,
+        bounded_above: Guarantee::no(Setting::usual(Input::Fixed)),
+        bounded_below: Guarantee::when(
+            "forgetting factor <= lambda_max < 1, regressors bounded",
+            Setting::usual(Input::Exciting(1)).factor(1.0),
+        ),
+    }),
+    ..About::new(&[])
 };
 
 /// Forgets everything at the same rate; see [`self`](crate::rules::exponential).
@@ -60,6 +63,11 @@ impl<M: Memory> Forgetting<M> for Exponential<M> {
     fn describe(&self, _: &mut dyn FnMut(&'static str, Value<'_>)) {}
 
     fn start(&self, _: M) {}
+
+    fn bounds(&self, constants: &Constants) -> Bounds {
+        let below = constants.least_remembered(constants.forgetting_factors.1);
+        Bounds { below, above: None }
+    }
 
     #[inline]
     fn form(&self, forgetting_factor: M::Real) -> Option<Form<M::Real>> {

@@ -20,8 +20,12 @@
 //! Reference: B. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
 //! stability and robustness guarantees*, IEEE Transactions on Automatic Control, 2024, V-E.
 
-use super::{About, Claim, Forgetting, Forgotten, Step};
-use crate::parameter::{Kind, Parameter, Range, Value, Values};
+use super::{Forgetting, Forgotten, Step};
+use crate::choice::guarantee::positive;
+use crate::choice::{
+    About, Bounds, Constants, Guarantee, Guarantees, Input, Kind, Parameter, Range, Setting, Value,
+    Values,
+};
 use crate::rules::root::Root;
 use crate::{Error, Memory, Real};
 
@@ -35,16 +39,23 @@ const INFORMATION: Parameter = Parameter::elements(
 
 /// The registry entry.
 pub const ABOUT: About = About {
-    name: "exponential_resetting",
-    type_name: "ExponentialResetting",
-    source: include_str!("exponential_resetting.rs"),
-    parameters: &[INFORMATION],
     forgetting_factor: true,
-    largest_rows: None,
-    proper: Claim::If("R_0 >= information"),
-    bounded_above: Claim::If("information is positive definite"),
-    bounded_below: Claim::If("forgetting factor <= lambda_max < 1, regressors bounded"),
     cost: "O((p + r) n^2), r = rank of information",
+    guarantees: Some(Guarantees {
+        proper: Guarantee::when(
+            "R_0 >= information",
+            Setting::usual(Input::Exciting(1)).with(&[("information", Value::Real(1.0))]),
+        ),
+        bounded_above: Guarantee::when(
+            "information is positive definite",
+            Setting::usual(Input::Silent).factor(0.99).with(&[("information", Value::Real(0.0))]),
+        ),
+        bounded_below: Guarantee::when(
+            "forgetting factor <= lambda_max < 1, regressors bounded",
+            Setting::usual(Input::Exciting(1)).factor(1.0),
+        ),
+    }),
+    ..About::new(&[INFORMATION])
 };
 
 /// Forgets towards R_∞; see [`self`](crate::rules::exponential_resetting).
@@ -75,6 +86,15 @@ impl<M: Memory> Forgetting<M> for ExponentialResetting<M> {
 
     fn is_bounded(&self) -> bool {
         self.information.rank() == self.information.parameters()
+    }
+
+    fn bounds(&self, constants: &Constants) -> Bounds {
+        let (least, most) = self.information.extremes();
+        let forgotten = 1.0 - constants.forgetting_factors.1;
+        Bounds {
+            below: positive(1.0 / (constants.regressor_bound / forgotten + most.to_f64())),
+            above: positive(1.0 / least.to_f64()),
+        }
     }
 
     #[inline]

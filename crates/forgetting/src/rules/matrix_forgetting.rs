@@ -29,10 +29,14 @@
 //! matrix forgetting"; after G. Kreisselmeier, *Stabilized least-squares type adaptive
 //! identifiers*, IEEE Transactions on Automatic Control 35, 1990.
 
-use super::{About, Claim, ExponentialResetting, Forgetting, Forgotten, Step};
-use crate::parameter::{Parameter, Range, Value, Values};
-use crate::rules::root::Root;
+use super::{ExponentialResetting, Forgetting, Forgotten, Step};
+use crate::choice::guarantee::positive;
+use crate::choice::{
+    About, Bounds, Constants, Guarantee, Guarantees, Input, Parameter, Range, Setting, Value,
+    Values,
+};
 use crate::covariance::spectrum::Spectrum;
+use crate::rules::root::Root;
 use crate::{Error, Memory, Real};
 
 const INFORMATION: Parameter = Parameter::real(
@@ -62,16 +66,20 @@ const SHIFT: Parameter = Parameter::real(
 
 /// The registry entry.
 pub const ABOUT: About = About {
-    name: "matrix_forgetting",
-    type_name: "MatrixForgetting",
-    source: include_str!("matrix_forgetting.rs"),
-    parameters: &[INFORMATION, POWER, CHOICE, SHIFT],
     forgetting_factor: true,
-    largest_rows: None,
-    proper: Claim::If("R_0 >= information * I"),
-    bounded_above: Claim::Always,
-    bounded_below: Claim::If("forgetting factor <= lambda_max < 1, regressors bounded"),
     cost: "O(n^3)",
+    guarantees: Some(Guarantees {
+        proper: Guarantee::when(
+            "R_0 >= information * I",
+            Setting::usual(Input::Exciting(1)).with(&[("information", Value::Real(1.0))]),
+        ),
+        bounded_above: Guarantee::ALWAYS,
+        bounded_below: Guarantee::when(
+            "forgetting factor <= lambda_max < 1, regressors bounded",
+            Setting::usual(Input::Exciting(1)).factor(1.0),
+        ),
+    }),
+    ..About::new(&[INFORMATION, POWER, CHOICE, SHIFT])
 };
 
 /// Forgets eigenvalue by eigenvalue; see [`self`](crate::rules::matrix_forgetting).
@@ -140,7 +148,12 @@ impl<M: Memory> MatrixForgetting<M> {
             spectrum.widen(i, (weight, room), step.factor, step.work.gain.as_mut());
         } else if lost < M::Real::ZERO {
             let gained = (-lost * r).min(M::Real::CEILING);
-            spectrum.narrow(i, gained, step.factor, (step.work.first.as_mut(), step.work.gain.as_mut()));
+            spectrum.narrow(
+                i,
+                gained,
+                step.factor,
+                (step.work.first.as_mut(), step.work.gain.as_mut()),
+            );
         }
         spectrum.set_information(i, r - lost * r);
     }
@@ -176,6 +189,11 @@ impl<M: Memory> Forgetting<M> for MatrixForgetting<M> {
 
     fn is_bounded(&self) -> bool {
         true
+    }
+
+    fn bounds(&self, constants: &Constants) -> Bounds {
+        let _ = constants;
+        Bounds { below: None, above: positive(1.0 / self.information.to_f64()) }
     }
 
     fn follow(&self, spectrum: &mut Spectrum<M>, step: Step<'_, '_, M>) {

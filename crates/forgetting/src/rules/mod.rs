@@ -1,17 +1,21 @@
-//! Where to forget: one file per rule, one line per rule in the registry below.
+//! Where to forget: which directions of P.
 //!
-//! A rule is the step R̄ = R − F of the recursion (GF-RLS, Theorem 1). It sees P and the whitened
-//! sample, never θ. To add one, write its file and add its line: its tests, its documentation,
-//! its Python class and its place on the command line follow.
+//! One file per rule, one line per rule in the registry below. A rule is the step R̄ = R − F of the
+//! recursion (GF-RLS, Theorem 1). It sees P and the whitened sample, never θ. To add one, write its
+//! file and add its line: its tests, its documentation, its Python class and its place on the
+//! command line follow.
 
-mod about;
+mod along_sample;
+mod blocks;
+pub mod criterion;
 mod root;
 
 pub use crate::sample::Skip;
-pub use about::{About, Claim};
+pub use blocks::Blocks;
 
-use crate::parameter::{Value, Values};
-use crate::state::{State, Visitor};
+use crate::choice::registry::registry;
+use crate::choice::{Bounds, Constants, Value, Values};
+use crate::state::State;
 use crate::{Error, Factor, Memory, Sample, Work};
 use forgetting_kernels::kernel::form::Form;
 
@@ -95,6 +99,12 @@ pub trait Forgetting<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
         false
     }
 
+    /// Bounds of the eigenvalues of P, where a formula for them is known; the header derives it.
+    fn bounds(&self, constants: &Constants) -> Bounds {
+        let _ = constants;
+        Bounds::default()
+    }
+
     /// What the rule does with this forgetting factor for a sample of one row, if it keeps no state
     /// and it is one of the ways that the factor forgets in while it measures.
     ///
@@ -119,171 +129,49 @@ pub trait Forgetting<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
     fn forget(&self, state: &mut Self::State, step: Step<'_, '_, M>) -> Result<Forgotten, Error>;
 }
 
-macro_rules! choice_of_rules {
-    ($Rule:ident, $State:ident, $which:literal: $($module:ident :: $Variant:ident,)*) => {
-        #[doc = concat!($which, ", chosen by name at run time.")]
-        #[derive(Clone, Debug)]
-        #[allow(missing_docs, reason = "each variant is the rule of that name")]
-        pub enum $Rule<M: Memory> {
-            $($Variant($Variant<M>),)*
-        }
-
-        #[doc = concat!("The state of ", stringify!($Rule), ".")]
-        #[derive(Clone, Debug)]
-        #[allow(missing_docs, reason = "each variant is the state of the rule of that name")]
-        pub enum $State<M: Memory> {
-            $($Variant(<$Variant<M> as Forgetting<M>>::State),)*
-        }
-
-        impl<M: Memory> $Rule<M> {
-            /// The rule called `name`, with these parameter values.
-            ///
-            /// # Errors
-            /// [`Error::Unknown`] for a name that is not in the registry, [`Error::Value`] for
-            /// more rows than the rule takes, else those of the rule.
-            pub fn named(name: &str, values: &dyn Values, memory: M) -> Result<Self, Error> {
-                match name {
-                    $(stringify!($module) => {
-                        $module::ABOUT.check_rows(memory.rows())?;
-                        <$Variant<M> as Forgetting<M>>::configure(values, memory)
-                            .map(Self::$Variant)
-                    })*
-                    _ => Err(Error::Unknown { parameter: "rule" }),
-                }
-            }
-
-            /// The entry of this rule in [`RULES`].
-            pub fn about(&self) -> About {
-                match self {
-                    $(Self::$Variant(_) => $module::ABOUT,)*
-                }
-            }
-        }
-
-        impl<M: Memory> State<M::Real> for $State<M> {
-            fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
-                match self {
-                    $(Self::$Variant(state) => state.visit(visitor),)*
-                }
-            }
-
-            fn is_sound(&self) -> bool {
-                match self {
-                    $(Self::$Variant(state) => State::<M::Real>::is_sound(state),)*
-                }
-            }
-        }
-
-        impl<M: Memory> Forgetting<M> for $Rule<M> {
-            type State = $State<M>;
-
-            fn configure(_: &dyn Values, _: M) -> Result<Self, Error> {
-                Err(Error::Missing { parameter: "rule" })
-            }
-
-            fn called(name: &str, values: &dyn Values, memory: M) -> Result<Self, Error> {
-                Self::named(name, values, memory)
-            }
-
-            fn name(&self) -> &'static str {
-                self.about().name
-            }
-
-            fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>)) {
-                match self {
-                    $(Self::$Variant(rule) => rule.describe(each),)*
-                }
-            }
-
-            fn start(&self, memory: M) -> Self::State {
-                match self {
-                    $(Self::$Variant(rule) => $State::$Variant(rule.start(memory)),)*
-                }
-            }
-
-            fn is_bounded(&self) -> bool {
-                match self {
-                    $(Self::$Variant(rule) => rule.is_bounded(),)*
-                }
-            }
-
-            #[inline]
-            fn form(&self, forgetting_factor: M::Real) -> Option<Form<M::Real>> {
-                match self {
-                    $(Self::$Variant(rule) => rule.form(forgetting_factor),)*
-                }
-            }
-
-            #[inline(never)]
-            fn follow(&self, state: &mut Self::State, step: Step<'_, '_, M>) {
-                match (self, state) {
-                    $((Self::$Variant(rule), $State::$Variant(state)) => rule.follow(state, step),)*
-                    _ => {}
-                }
-            }
-
-            // not into every update: it is all the rules there are
-            #[inline(never)]
-            fn forget(
-                &self,
-                state: &mut Self::State,
-                step: Step<'_, '_, M>,
-            ) -> Result<Forgotten, Error> {
-                match (self, state) {
-                    $((Self::$Variant(rule), $State::$Variant(state)) => rule.forget(state, step),)*
-                    _ => Err(Error::State { reason: "the state is that of another rule" }),
-                }
-            }
-        }
-    };
-}
-
-macro_rules! registry {
-    (
-        around [$($wrapper:ident :: $Wrapper:ident),*]
-        $($module:ident :: $Rule:ident,)*
-    ) => {
-        $(
-            pub mod $module;
-            pub use $module::$Rule;
-        )*
-        $(
-            pub mod $wrapper;
-            pub use $wrapper::$Wrapper;
-        )*
-
-        /// Every rule: its name, parameters, guarantees and documentation.
-        pub const RULES: &[About] = &[$($module::ABOUT,)* $($wrapper::ABOUT),*];
-
-        choice_of_rules! {
-            Rule, RuleState, "Any rule of the registry":
-            $($module::$Rule,)* $($wrapper::$Wrapper,)*
-        }
-        choice_of_rules! {
-            InnerRule, InnerState, "Any rule that another can be put around":
-            $($module::$Rule,)*
-        }
-    };
-}
-
-// `around`: rules that take another rule as a parameter
 registry! {
-    around [covariance_resetting::CovarianceResetting]
-    none::NoForgetting,
-    exponential::Exponential,
-    exponential_resetting::ExponentialResetting,
-    cyclic_resetting::CyclicResetting,
-    subspace::Subspace,
-    directional::Directional,
-    oblique_projection::ObliqueProjection,
-    restricted::Restricted,
-    data_dependent::DataDependent,
-    component::Component,
-    random_walk::RandomWalk,
-    variable_direction::VariableDirection,
-    matrix_forgetting::MatrixForgetting,
-    efra::Efra,
-    constant_trace::ConstantTrace,
-    multiple::Multiple,
-    custom::Custom,
+    "rule", "rules", RULES, Rule [RuleState]: Forgetting {
+        fn is_bounded(&self) -> bool;
+        fn bounds(&self, constants: &Constants) -> Bounds;
+        #[inline]
+        fn form(&self, forgetting_factor: M::Real) -> Option<Form<M::Real>>;
+        #[inline(never)]
+        fn follow(&self, state: &mut State, step: Step<'_, '_, M>);
+        // not into every update: it is all the rules there are
+        #[inline(never)]
+        fn forget(&self, state: &mut State, step: Step<'_, '_, M>) -> Result<Forgotten, Error>;
+    }
+    entries {
+        none::NoForgetting,
+        exponential::Exponential,
+        exponential_resetting::ExponentialResetting,
+        cyclic_resetting::CyclicResetting,
+        stabilised::Stabilised,
+        subspace::Subspace,
+        directional::Directional,
+        oblique_projection::ObliqueProjection,
+        restricted::Restricted,
+        data_dependent::DataDependent,
+        component::Component,
+        random_walk::RandomWalk,
+        variable_direction::VariableDirection,
+        matrix_forgetting::MatrixForgetting,
+        efra::Efra,
+        constant_trace::ConstantTrace,
+        multiple::Multiple,
+        custom::Custom,
+    }
+    // rules that take another rule as a parameter
+    around InnerRule [InnerState] {
+        covariance_resetting::CovarianceResetting,
+    }
+    also {
+        fn called(name: &str, values: &dyn Values, memory: M) -> Result<Self, Error> {
+            Self::named(name, values, memory)
+        }
+
+        fn name(&self) -> &'static str {
+            self.about().name
+        }
+    }
 }

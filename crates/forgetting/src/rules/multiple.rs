@@ -27,12 +27,14 @@
 //! Dynamics 43, 2005; B. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
 //! stability and robustness guarantees*, IEEE Transactions on Automatic Control, 2024, V-J.
 
-use super::{About, Claim, Forgetting, Forgotten, Step};
-use forgetting_kernels::kernel::functions::{add_scaled, bierman, dot};
-use forgetting_kernels::kernel::layout::{length, place, set_identity};
-use crate::parameter::{Kind, Parameter, Range, Value, Values};
+use super::{Forgetting, Forgotten, Step};
+use crate::choice::{
+    About, Guarantee, Guarantees, Input, Kind, Parameter, Range, Setting, Value, Values,
+};
 use crate::state::{is_finite, State, Visitor};
 use crate::{Error, Factor, Memory, Real, Sample};
+use forgetting_kernels::kernel::functions::{add_scaled, bierman, dot};
+use forgetting_kernels::kernel::layout::{length, place, set_identity};
 
 const FACTORS: Parameter = Parameter::elements(
     "factors",
@@ -51,16 +53,20 @@ const BLOCKS: Parameter = Parameter::elements(
 
 /// The registry entry.
 pub const ABOUT: About = About {
-    name: "multiple",
-    type_name: "Multiple",
-    source: include_str!("multiple.rs"),
-    parameters: &[FACTORS, BLOCKS],
-    forgetting_factor: false,
-    largest_rows: None,
-    proper: Claim::If("block-normalized R >= blkdiag(factors); rarely so near 1"),
-    bounded_above: Claim::No,
-    bounded_below: Claim::If("factors <= lambda_max < 1, regressors bounded"),
     cost: "O(p n^2)",
+    guarantees: Some(Guarantees {
+        proper: Guarantee::when(
+            "block-normalized R >= blkdiag(factors); rarely so near 1",
+            Setting::usual(Input::Correlated),
+        )
+        .holds_in(Setting::usual(Input::Axes)),
+        bounded_above: Guarantee::no(Setting::usual(Input::Silent)),
+        bounded_below: Guarantee::when(
+            "factors <= lambda_max < 1, regressors bounded",
+            Setting::usual(Input::Exciting(1)).with(&[("factors", Value::Real(1.0))]),
+        ),
+    }),
+    ..About::new(&[FACTORS, BLOCKS])
 };
 
 /// Forgets each block at its own rate; see [`self`](crate::rules::multiple).
@@ -122,7 +128,11 @@ impl<M: Memory> Multiple<M> {
             factors.as_mut()[b] = lambda;
         }
         if end != n as f64 {
-            return Err(Error::value(BLOCKS.name, end, "sizes that add up to the number of parameters"));
+            return Err(Error::value(
+                BLOCKS.name,
+                end,
+                "sizes that add up to the number of parameters",
+            ));
         }
         Ok(Self { count, sizes, factors })
     }
@@ -138,7 +148,7 @@ impl<M: Memory> Multiple<M> {
     }
 
     /// Takes the blocks of the first P.
-    fn start_once(&self, state: &mut Blocks<M>, factor: &Factor<M>) {
+    fn start_once(&self, state: &mut BlockFactors<M>, factor: &Factor<M>) {
         if state.started == 0 {
             let mut offset = 0;
             for (start, size, _) in self.blocks() {
@@ -170,7 +180,7 @@ fn refuse(parameter: &'static str, index: usize, value: f64, allowed: &'static s
 
 /// R_bb⁻¹ of every block, each U D Uᵀ.
 #[derive(Clone, Debug)]
-pub struct Blocks<M: Memory> {
+pub struct BlockFactors<M: Memory> {
     /// one block after the other, each packed as in [`Factor`]
     columns: M::Packed,
     diagonal: M::Vector,
@@ -179,7 +189,7 @@ pub struct Blocks<M: Memory> {
     work: M::Square,
 }
 
-impl<M: Memory> Blocks<M> {
+impl<M: Memory> BlockFactors<M> {
     /// R_bb⁻¹ = (B Bᵀ)⁻¹ with B the rows D^(−1/2)U⁻¹e_i of the block: when q_t = Σ_u U_ut B_u are
     /// the rows made orthogonal one after the other, D_t = 1/‖q_t‖².
     fn start_block(&mut self, factor: &Factor<M>, start: usize, size: usize, offset: usize) {
@@ -212,7 +222,7 @@ impl<M: Memory> Blocks<M> {
 }
 
 impl<M: Memory> Forgetting<M> for Multiple<M> {
-    type State = Blocks<M>;
+    type State = BlockFactors<M>;
 
     fn configure(values: &dyn Values, memory: M) -> Result<Self, Error> {
         match BLOCKS.look_up(values)? {
@@ -235,12 +245,12 @@ impl<M: Memory> Forgetting<M> for Multiple<M> {
         each(BLOCKS.name, Value::Matrix { rows, columns, elements: &sizes });
     }
 
-    fn start(&self, memory: M) -> Blocks<M> {
+    fn start(&self, memory: M) -> BlockFactors<M> {
         let (columns, diagonal) = (memory.packed(), memory.vector());
-        Blocks { columns, diagonal, started: 0, work: memory.square() }
+        BlockFactors { columns, diagonal, started: 0, work: memory.square() }
     }
 
-    fn follow(&self, state: &mut Blocks<M>, step: Step<'_, '_, M>) {
+    fn follow(&self, state: &mut BlockFactors<M>, step: Step<'_, '_, M>) {
         self.start_once(state, step.factor);
         let mut offset = 0;
         for (start, size, _) in self.blocks() {
@@ -252,7 +262,11 @@ impl<M: Memory> Forgetting<M> for Multiple<M> {
     }
 
     #[inline]
-    fn forget(&self, state: &mut Blocks<M>, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
+    fn forget(
+        &self,
+        state: &mut BlockFactors<M>,
+        step: Step<'_, '_, M>,
+    ) -> Result<Forgotten, Error> {
         let least = self.blocks().fold(M::Real::ONE, |least, (_, _, lambda)| least.min(lambda));
         // R_bb⁻¹ ≤ P_bb, so that P̄ is at most P/λ of the smallest λ
         step.factor.reserve(M::Real::ONE / least, M::Real::ZERO)?;
@@ -271,7 +285,7 @@ impl<M: Memory> Forgetting<M> for Multiple<M> {
     }
 }
 
-impl<M: Memory> State<M::Real> for Blocks<M> {
+impl<M: Memory> State<M::Real> for BlockFactors<M> {
     fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
         visitor.reals(self.columns.as_mut());
         visitor.reals(self.diagonal.as_mut());

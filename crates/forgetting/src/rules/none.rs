@@ -18,24 +18,23 @@
 //! Reference: B. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
 //! stability and robustness guarantees*, IEEE Transactions on Automatic Control, 2024.
 
-use super::{About, Claim, Forgetting, Forgotten, Step};
-use forgetting_kernels::kernel::form::Form;
-use crate::parameter::{Value, Values};
+use super::{Forgetting, Forgotten, Step};
+use crate::choice::{
+    About, Bounds, Constants, Guarantee, Guarantees, Input, Setting, Value, Values,
+};
 use crate::{Error, Memory, Real};
 use core::marker::PhantomData;
+use forgetting_kernels::kernel::form::Form;
 
 /// The registry entry.
 pub const ABOUT: About = About {
-    name: "none",
-    type_name: "NoForgetting",
-    source: include_str!("none.rs"),
-    parameters: &[],
-    forgetting_factor: false,
-    largest_rows: None,
-    proper: Claim::Always,
-    bounded_above: Claim::Always,
-    bounded_below: Claim::No,
     cost: "O(p n^2)",
+    guarantees: Some(Guarantees {
+        proper: Guarantee::ALWAYS,
+        bounded_above: Guarantee::ALWAYS,
+        bounded_below: Guarantee::no(Setting::usual(Input::Exciting(1))),
+    }),
+    ..About::new(&[])
 };
 
 /// Never forgets; see [`self`](crate::rules::none).
@@ -62,6 +61,10 @@ impl<M: Memory> Forgetting<M> for NoForgetting<M> {
 
     fn is_bounded(&self) -> bool {
         true
+    }
+
+    fn bounds(&self, constants: &Constants) -> Bounds {
+        Bounds { below: None, above: Some(constants.initial.1) }
     }
 
     #[inline]

@@ -26,9 +26,11 @@
 //! variable-direction forgetting via oblique projection decomposition*, IEEE/CAA Journal of
 //! Automatica Sinica 9(3), 2022.
 
-use super::{About, Claim, Forgetting, Forgotten, Step};
-use crate::directions::forget_along_rows;
-use crate::parameter::{Parameter, Range, Value, Values};
+use super::along_sample::forget_along_rows;
+use super::{Forgetting, Forgotten, Step};
+use crate::choice::{
+    About, Guarantee, Guarantees, Input, Parameter, Range, Setting, Value, Values,
+};
 use crate::{Error, Memory, Real};
 
 const THRESHOLD: Parameter = Parameter::real(
@@ -40,16 +42,16 @@ const THRESHOLD: Parameter = Parameter::real(
 
 /// The registry entry.
 pub const ABOUT: About = About {
-    name: "oblique_projection",
-    type_name: "ObliqueProjection",
-    source: include_str!("oblique_projection.rs"),
-    parameters: &[THRESHOLD],
     forgetting_factor: true,
-    largest_rows: None,
-    proper: Claim::Always,
-    bounded_above: Claim::No,
-    bounded_below: Claim::No,
     cost: "O(p n^2)",
+    guarantees: Some(Guarantees {
+        proper: Guarantee::ALWAYS,
+        bounded_above: Guarantee::no(Setting::usual(Input::Uneven(1e-4))),
+        bounded_below: Guarantee::no(
+            Setting::usual(Input::Exciting(1)).with(&[("threshold", Value::Real(2.0))]),
+        ),
+    }),
+    ..About::new(&[THRESHOLD])
 };
 
 /// Forgets what the sample spans; see [`self`](crate::rules::oblique_projection).

@@ -21,11 +21,14 @@
 //! Reference: R. E. Kalman, *A new approach to linear filtering and prediction problems*, Journal
 //! of Basic Engineering 82, 1960; as forgetting, GF-RLS, Theorem 1.
 
-use super::{About, Claim, Forgetting, Forgotten, Step};
-use forgetting_kernels::kernel::functions::dot;
-use crate::parameter::{Kind, Parameter, Range, Value, Values};
+use super::{Forgetting, Forgotten, Step};
+use crate::choice::{
+    About, Bounds, Constants, Guarantee, Guarantees, Input, Kind, Parameter, Range, Setting, Value,
+    Values,
+};
 use crate::rules::root::Root;
 use crate::{Error, Memory, Real};
+use forgetting_kernels::kernel::functions::dot;
 
 const PROCESS_NOISE: Parameter = Parameter::elements(
     "process_noise",
@@ -37,16 +40,18 @@ const PROCESS_NOISE: Parameter = Parameter::elements(
 
 /// The registry entry.
 pub const ABOUT: About = About {
-    name: "random_walk",
-    type_name: "RandomWalk",
-    source: include_str!("random_walk.rs"),
-    parameters: &[PROCESS_NOISE],
-    forgetting_factor: false,
-    largest_rows: None,
-    proper: Claim::Always,
-    bounded_above: Claim::No,
-    bounded_below: Claim::If("process_noise is positive definite, regressors bounded"),
     cost: "O((p + r) n^2), r = rank of process_noise",
+    guarantees: Some(Guarantees {
+        proper: Guarantee::ALWAYS,
+        bounded_above: Guarantee::no(
+            Setting::usual(Input::Silent).with(&[("process_noise", Value::Real(1e4))]),
+        ),
+        bounded_below: Guarantee::when(
+            "process_noise is positive definite, regressors bounded",
+            Setting::usual(Input::Exciting(1)).with(&[("process_noise", Value::Real(0.0))]),
+        ),
+    }),
+    ..About::new(&[PROCESS_NOISE])
 };
 
 /// Adds Q at each sample; see [`self`](crate::rules::random_walk).
@@ -77,6 +82,11 @@ impl<M: Memory> Forgetting<M> for RandomWalk<M> {
 
     fn start(&self, _: M) {}
 
+    fn bounds(&self, constants: &Constants) -> Bounds {
+        let (least, _) = self.process_noise.extremes();
+        Bounds { below: constants.least_after(least.to_f64()), above: None }
+    }
+
     #[inline]
     fn forget(&self, (): &mut (), step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         step.factor.reserve(M::Real::ONE, self.trace)?;
@@ -92,7 +102,7 @@ impl<M: Memory> Forgetting<M> for RandomWalk<M> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::parameter::Defaults;
+    use crate::choice::Defaults;
     use crate::testing::{covariance, forget, memory, Dense};
 
     #[test]

@@ -31,25 +31,23 @@
 //! exponential convergence of identification algorithms with directional forgetting factor*,
 //! Automatica 26, 1990.
 
-use super::{About, Claim, Forgetting, Forgotten, Step};
-use forgetting_kernels::kernel::functions::{add_scaled, dot};
-use crate::parameter::{Value, Values};
+use super::{Forgetting, Forgotten, Step};
+use crate::choice::{About, Guarantee, Guarantees, Input, Setting, Value, Values};
 use crate::state::{is_factor, State, Visitor};
 use crate::{Error, Factor, Memory, Real, Sample, Work};
 use core::marker::PhantomData;
+use forgetting_kernels::kernel::functions::{add_scaled, dot};
 
 /// The registry entry.
 pub const ABOUT: About = About {
-    name: "restricted",
-    type_name: "Restricted",
-    source: include_str!("restricted.rs"),
-    parameters: &[],
     forgetting_factor: true,
-    largest_rows: None,
-    proper: Claim::Always,
-    bounded_above: Claim::No,
-    bounded_below: Claim::No,
     cost: "O(p n^2)",
+    guarantees: Some(Guarantees {
+        proper: Guarantee::ALWAYS,
+        bounded_above: Guarantee::no(Setting::usual(Input::Fading(1e-6))),
+        bounded_below: Guarantee::no(Setting::usual(Input::Alternating)),
+    }),
+    ..About::new(&[])
 };
 
 /// Forgets along the last gain; see [`self`](crate::rules::restricted).
@@ -182,7 +180,7 @@ fn orthonormalize<M: Memory>(factor: &Factor<M>, rows: &[M::Real], out: &mut [M:
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::parameter::Defaults;
+    use crate::choice::Defaults;
     use crate::testing::{covariance, forget, measured, memory, two_rows, Dense};
 
     #[test]

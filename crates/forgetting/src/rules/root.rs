@@ -1,7 +1,8 @@
 //! A positive semidefinite matrix that a rule is given, and its root: A = Σ_i r_iᵀ r_i.
 
+use crate::choice::{Parameter, Value, Values};
 use crate::covariance::dense::check_symmetric;
-use crate::parameter::{Parameter, Value, Values};
+use crate::covariance::spectrum::make_orthogonal;
 use crate::{Error, Memory, Real};
 use forgetting_kernels::kernel::functions::{add_scaled, dot};
 use forgetting_kernels::Kernels;
@@ -120,6 +121,21 @@ impl<M: Memory> Root<M> {
     /// The rank of the matrix.
     pub fn rank(&self) -> usize {
         self.rank
+    }
+
+    /// The smallest and the largest eigenvalue of the matrix. O(n³) a sweep for a full one: the
+    /// squared lengths of its rows, once rotations have made them orthogonal.
+    pub fn extremes(&self) -> (M::Real, M::Real) {
+        let n = self.memory.parameters();
+        let mut rows = self.rows.clone();
+        if self.form == Form::Dense {
+            make_orthogonal(rows.as_mut(), self.memory.square().as_mut(), n);
+        }
+        let squares = rows.as_ref().chunks_exact(n).map(|row| dot(row, row));
+        let (least, most) = squares.fold((M::Real::CEILING, M::Real::ZERO), |(least, most), x| {
+            (least.min(x), most.max(x))
+        });
+        (if self.rank < n { M::Real::ZERO } else { least }, most)
     }
 
     /// A·x, written to `product`.

@@ -25,11 +25,14 @@
 //! least squares*, arXiv 2404.10844, 2024; for one row, L. Cao, H. M. Schwartz, *A directional
 //! forgetting algorithm based on the decomposition of the information matrix*, Automatica 36, 2000.
 
-use super::{About, Claim, Forgetting, Forgotten, Skip, Step};
-use crate::directions::forget_along_sample;
-use forgetting_kernels::kernel::form::{DeadZone, Form};
-use crate::parameter::{Parameter, Range, Value, Values};
+use super::along_sample::forget_along_sample;
+use super::{Forgetting, Forgotten, Skip, Step};
+use crate::choice::{
+    About, Bounds, Constants, Guarantee, Guarantees, Input, Parameter, Range, Setting, Value,
+    Values,
+};
 use crate::{Error, Memory, Real};
+use forgetting_kernels::kernel::form::{DeadZone, Form};
 
 const THRESHOLD: Parameter = Parameter::real(
     "threshold",
@@ -40,16 +43,20 @@ const THRESHOLD: Parameter = Parameter::real(
 
 /// The registry entry.
 pub const ABOUT: About = About {
-    name: "subspace",
-    type_name: "Subspace",
-    source: include_str!("subspace.rs"),
-    parameters: &[THRESHOLD],
     forgetting_factor: true,
-    largest_rows: None,
-    proper: Claim::Always,
-    bounded_above: Claim::If("forgetting factor >= lambda_min > 0"),
-    bounded_below: Claim::If("forgetting factor <= lambda_max < 1, regressors bounded"),
     cost: "O(p n^2)",
+    guarantees: Some(Guarantees {
+        proper: Guarantee::ALWAYS,
+        bounded_above: Guarantee::when(
+            "forgetting factor >= lambda_min > 0",
+            Setting::usual(Input::Exciting(1)).factor(1e-6),
+        ),
+        bounded_below: Guarantee::when(
+            "forgetting factor <= lambda_max < 1, regressors bounded",
+            Setting::usual(Input::Exciting(1)).factor(1.0),
+        ),
+    }),
+    ..About::new(&[THRESHOLD])
 };
 
 /// Forgets in the informed directions only; see [`self`](crate::rules::subspace).
@@ -83,6 +90,10 @@ impl<M: Memory> Forgetting<M> for Subspace<M> {
 
     fn is_bounded(&self) -> bool {
         true
+    }
+
+    fn bounds(&self, constants: &Constants) -> Bounds {
+        constants.along_samples(self.threshold.to_f64())
     }
 
     #[inline]

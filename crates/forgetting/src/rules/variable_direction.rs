@@ -35,8 +35,10 @@
 //! variable-direction forgetting*, IEEE Control Systems Magazine 40(4), 2020, (64)–(71), with
 //! the transposes that (70) lost.
 
-use super::{About, Claim, Forgetting, Forgotten, Step};
-use crate::parameter::{Parameter, Range, Value, Values};
+use super::{Forgetting, Forgotten, Step};
+use crate::choice::{
+    About, Guarantee, Guarantees, Input, Parameter, Range, Setting, Value, Values,
+};
 use crate::covariance::spectrum::Spectrum;
 use crate::{Error, Memory, Real};
 
@@ -49,16 +51,18 @@ const THRESHOLD: Parameter = Parameter::real(
 
 /// The registry entry.
 pub const ABOUT: About = About {
-    name: "variable_direction",
-    type_name: "VariableDirection",
-    source: include_str!("variable_direction.rs"),
-    parameters: &[THRESHOLD],
     forgetting_factor: true,
-    largest_rows: None,
-    proper: Claim::Always,
-    bounded_above: Claim::No,
-    bounded_below: Claim::No,
     cost: "O(p n^3)",
+    guarantees: Some(Guarantees {
+        proper: Guarantee::ALWAYS,
+        bounded_above: Guarantee::no(
+            Setting::usual(Input::Fixed).with(&[("threshold", Value::Real(1e-9))]),
+        ),
+        bounded_below: Guarantee::no(
+            Setting::usual(Input::Exciting(1)).with(&[("threshold", Value::Real(2.0))]),
+        ),
+    }),
+    ..About::new(&[THRESHOLD])
 };
 
 /// Forgets along excited eigenvectors; see [`self`](crate::rules::variable_direction).
@@ -135,7 +139,12 @@ fn forget_marked<M: Memory>(
         let marked = step.work.second.as_ref()[i] > M::Real::ZERO;
         let information = spectrum.information()[i];
         if rest_is_small && !marked {
-            spectrum.narrow(i, lost * information, step.factor, (step.work.first.as_mut(), step.work.gain.as_mut()));
+            spectrum.narrow(
+                i,
+                lost * information,
+                step.factor,
+                (step.work.first.as_mut(), step.work.gain.as_mut()),
+            );
         } else if marked {
             if !rest_is_small {
                 let weight = lost / (lambda * information);

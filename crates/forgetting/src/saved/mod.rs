@@ -16,12 +16,12 @@
 //!
 //! Version 1 had no gate: it is read as open. Its monitor held other numbers: a new one starts.
 
+use crate::choice::{Value, Values};
 use crate::gates::{AnyGate, Gate, Open};
-use crate::parameter::{Value, Values};
 use crate::rates::{AnyRate, Rate};
 use crate::rules::{Forgetting, Rule};
 use crate::state::{State, Visitor};
-use crate::weighting::{AnyWeighting, Weighting};
+use crate::weightings::{AnyWeighting, Weighting};
 use crate::{Dynamic, Error, Estimator, Memory, Prior, Real};
 use alloc::{boxed::Box, string::String, vec::Vec};
 use forgetting_kernels::Kernels;

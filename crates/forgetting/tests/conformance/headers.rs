@@ -1,36 +1,61 @@
-//! The header of a rule's file is its documentation: it must say what the registry says.
+//! The header of a file is its documentation: it must have all its parts, and say what the registry
+//! says.
 
-use forgetting::rules::{Claim, RULES};
+use forgetting::choice::{About, Claim};
+use forgetting::rules::RULES;
+use forgetting::AXES;
+
+fn text(about: &About) -> String {
+    about.header().collect::<Vec<_>>().join("\n")
+}
 
 #[test]
 fn headers_have_all_their_parts() {
-    for about in RULES {
-        let header: Vec<&str> = about.header().collect();
-        let text = header.join("\n");
-        let summary = about.summary();
-        assert!(summary.ends_with('.') && summary.len() > 20, "{}: {summary}", about.name);
-        assert!(header[1].is_empty(), "{}: one sentence, then a blank line", about.name);
-        for part in ["```text", "| symbol | name | range | default |", "(A1)", "(A2)", "(A3)"] {
-            assert!(text.contains(part), "{}: {part} is missing", about.name);
-        }
-        for part in ["Cost: ", "State: ", "Reference: "] {
-            assert!(text.contains(part), "{}: {part} is missing", about.name);
+    for about in AXES.iter().flat_map(|axis| axis.entries) {
+        let (name, summary, text) = (about.name, about.summary(), text(about));
+        assert!(summary.ends_with('.') && summary.len() > 20, "{name}: {summary}");
+        let second = about.header().nth(1);
+        assert_eq!(second, Some(""), "{name}: one sentence, then a blank line");
+        for part in ["```text", "| symbol | name | range | default |", "Cost: ", "- Use it"] {
+            assert!(text.contains(part), "{name}: {part} is missing");
         }
         for parameter in about.parameters {
-            let name = format!("| {} |", parameter.name);
-            assert!(text.contains(&name), "{}: {name} is missing", about.name);
+            assert!(text.contains(&format!("| {} |", parameter.name)), "{name}: {parameter:?}");
+            assert!(!parameter.about.is_empty(), "{name}: {parameter:?}");
         }
-        assert!(about.source.contains(&format!("pub struct {}<M", about.type_name)));
+    }
+}
+
+#[test]
+fn headers_of_rules_say_what_is_guaranteed_and_by_whom() {
+    for about in RULES {
+        for part in ["(A1)", "(A2)", "(A3)", "State: ", "Reference: "] {
+            assert!(text(about).contains(part), "{}: {part} is missing", about.name);
+        }
+        assert!(!about.cost.is_empty(), "{}: its cost", about.name);
+    }
+}
+
+#[test]
+fn an_axis_says_what_it_is() {
+    for axis in AXES {
+        let summary = axis.summary().collect::<Vec<_>>().join(" ");
+        assert!(summary.ends_with('.') && summary.len() > 20, "{}: {summary}", axis.name);
+        assert!(!axis.entries.is_empty(), "{}", axis.name);
+        assert!(axis.entries.iter().all(|about| axis.find(about.name).is_some()));
     }
 }
 
 #[test]
 fn headers_claim_what_the_registry_claims() {
     for about in RULES {
-        let text = about.header().collect::<Vec<_>>().join("\n");
-        for (mark, claim) in
-            [("(A1)", about.proper), ("(A2)", about.bounded_above), ("(A3)", about.bounded_below)]
-        {
+        let text = text(about);
+        let said = about.guarantees.expect("what the rule guarantees");
+        for (mark, claim) in [
+            ("(A1)", said.proper.claim),
+            ("(A2)", said.bounded_above.claim),
+            ("(A3)", said.bounded_below.claim),
+        ] {
             let said = text.split(mark).nth(1).unwrap().trim_start_matches(": ");
             let fits = match claim {
                 Claim::Always => said.starts_with("always"),
@@ -44,10 +69,14 @@ fn headers_claim_what_the_registry_claims() {
 
 #[test]
 fn names_are_unique() {
-    for (i, about) in RULES.iter().enumerate() {
-        for other in &RULES[..i] {
-            assert_ne!(about.name, other.name);
-            assert_ne!(about.type_name, other.type_name);
+    for axis in AXES {
+        for (i, about) in axis.entries.iter().enumerate() {
+            assert!(axis.entries[..i].iter().all(|other| about.name != other.name));
         }
+    }
+    // types of all axes are names of one Python module
+    let types: Vec<_> = AXES.iter().flat_map(|axis| axis.entries).map(|a| a.type_name).collect();
+    for (i, one) in types.iter().enumerate() {
+        assert!(!types[..i].contains(one), "{one}");
     }
 }

@@ -4,7 +4,7 @@ use crate::record::{record, Datum};
 use crate::subjects::{subjects, Subject};
 use forgetting::gates::Answer;
 use forgetting::gates::{AnyGate, DeadZone, MinimumInformation};
-use forgetting::weighting::{AnyWeighting, Huber};
+use forgetting::weightings::{AnyWeighting, Huber};
 use forgetting::Outcome;
 use forgetting::{Dynamic, Error, Estimator, Noise, Prior};
 

@@ -5,12 +5,6 @@ use crate::subjects::{rules, subjects, update};
 use forgetting::saved::AnyEstimator;
 use forgetting::{Kernels, Noise};
 
-/// Rules whose forgetting factor is not all that forgets, and why.
-const MORE_THAN_A_FACTOR: [(&str, &str); 2] = [
-    ("multiple", "drops what the blocks know of each other, whatever the factor"),
-    ("efra", "adds to P and saturates it, whatever the factor"),
-];
-
 fn numbers<T: Kernels>(estimator: &AnyEstimator<T>) -> Vec<u64> {
     let factor = estimator.factor();
     let parts = [estimator.theta(), factor.packed_columns(), factor.diagonal_elements()];
@@ -22,9 +16,6 @@ fn factor_one_is_none<T: Kernels>(sizes: (usize, usize, usize)) {
     let data: Vec<Datum<T>> = record(sizes, 600).into_iter().take(100).collect();
     let none = rules().find(|subject| subject.about.name == "none").unwrap();
     for subject in rules().filter(|subject| subject.about.forgetting_factor) {
-        if MORE_THAN_A_FACTOR.iter().any(|(name, _)| *name == subject.about.name) {
-            continue;
-        }
         let mut one = subject.estimator::<T>(sizes, 1.0, 100.0).unwrap();
         let mut other = none.estimator::<T>(sizes, 1.0, 100.0).unwrap();
         for Datum { phi, y, gamma } in &data {

@@ -1,7 +1,7 @@
 //! Parameters out of range are refused by name, and those in use are told back.
 
 use crate::subjects::{rules, sample_in, subjects, Given, Item};
-use forgetting::parameter::{Kind, Parameter, Value, Values};
+use forgetting::choice::{Kind, Parameter, Value, Values};
 use forgetting::rules::{Forgetting, Rule, RULES};
 use forgetting::{Dynamic, Error, Kernels};
 

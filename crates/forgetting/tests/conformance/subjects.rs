@@ -1,12 +1,13 @@
 //! Every rule of the registry, with each of its words and each rule that it can be put around.
 #![allow(dead_code, reason = "each test uses its share")]
 
+use forgetting::choice::About;
+use forgetting::choice::{Kind, Parameter, Value, Values};
 use forgetting::gates::Answer;
-use forgetting::parameter::{Kind, Parameter, Value, Values};
 use forgetting::rates::AnyRate;
-use forgetting::rules::{About, Rule, RULES};
+use forgetting::rules::{Rule, RULES};
 use forgetting::saved::AnyEstimator;
-use forgetting::weighting::AnyWeighting;
+use forgetting::weightings::AnyWeighting;
 use forgetting::{
     Dynamic, Error, Estimator, Forgetting, Kernels, Memory, Noise, Prior, Rate, Real, Skip,
     Weighting,
@@ -113,7 +114,7 @@ impl Subject {
         };
         let factor = Given::one("forgetting_factor", Item::Real(forgetting_factor));
         let rate = factor.with(|values| AnyRate::named("constant", values, memory)).unwrap();
-        let weighting = AnyWeighting::named("equal", &forgetting::parameter::Defaults, memory);
+        let weighting = AnyWeighting::named("equal", &forgetting::choice::Defaults, memory);
         let prior = Prior::scalar(memory, T::from_f64(variance)).unwrap();
         Some(Estimator::new(rule, rate, weighting.unwrap(), prior))
     }

@@ -6,7 +6,7 @@ use crate::subjects::{subjects, update, Given, Subject};
 use forgetting::rates::{AnyRate, RATES};
 use forgetting::saved::AnyEstimator;
 use forgetting::state::Visitor;
-use forgetting::weighting::AnyWeighting;
+use forgetting::weightings::AnyWeighting;
 use forgetting::{Dynamic, Estimator, Noise, Prior};
 
 type Sizes = (usize, usize, usize);

@@ -1,11 +1,12 @@
 //! A1 to A3 for every line of the registry.
 
 use crate::dense::Dense;
-use crate::inputs::Input;
-use crate::run::{Passed, Setting, N};
-use crate::settings::{growing, improper, proper, usual, vanishing};
+use crate::inputs::rows;
+use crate::run::{run, subject, Passed, N};
 use crate::subjects::rules;
-use forgetting::rules::{About, Claim};
+use forgetting::choice::{About, Claim, Constants, Guarantee, Guarantees, Input, Setting};
+use forgetting::rules::Forgetting;
+use forgetting::Dynamic;
 
 /// Rounding of F's smallest eigenvalue relative to R, in units of eps times the condition of P.
 /// Measured 2.7.
@@ -15,10 +16,15 @@ const ROUNDING: f64 = 30.0;
 /// formulas are tested in `bounds`.
 const GROWTH: f64 = 1e3;
 
-/// The lines of the registry, but for a rule that the user gives as a function: what that
+/// What each rule guarantees, but for a rule that is a function of the user's: what that
 /// guarantees is the user's.
-fn lines() -> impl Iterator<Item = &'static About> {
-    rules().map(|subject| subject.about)
+pub fn lines() -> impl Iterator<Item = (&'static About, Guarantees)> {
+    rules().map(|subject| (subject.about, subject.about.guarantees.expect("what it guarantees")))
+}
+
+/// The setting in which what is not always guaranteed fails.
+fn fails(about: &About, guarantee: Guarantee) -> Setting {
+    guarantee.fails.unwrap_or_else(|| panic!("{}: a setting in which it fails", about.name))
 }
 
 fn extremes(matrix: &Dense) -> (f64, f64) {
@@ -30,7 +36,7 @@ fn extremes(matrix: &Dense) -> (f64, f64) {
 /// rounding: that of Lᵀ F L = I − Lᵀ R̄ L, P = L Lᵀ.
 fn least_forgotten(name: &str, setting: &Setting, samples: usize) -> (f64, f64) {
     let (mut least, mut rounding) = (f64::INFINITY, f64::INFINITY);
-    setting.run(name, samples, |Passed { before, forgotten, .. }| {
+    run(name, setting, samples, |Passed { before, forgotten, .. }| {
         let (small, large) = extremes(&before);
         let l = before.cholesky();
         let left = l.transpose() * forgotten.inverse() * l;
@@ -42,7 +48,13 @@ fn least_forgotten(name: &str, setting: &Setting, samples: usize) -> (f64, f64) 
     (least, rounding)
 }
 
-fn runs(about: &About) -> impl Iterator<Item = Setting> + '_ {
+/// The settings in which `guarantee` is to hold: those that its rule names, or the usual ones.
+pub fn runs(about: &About, guarantee: Guarantee) -> Vec<Setting> {
+    guarantee.holds.map_or_else(|| usual(about).collect(), |setting| vec![setting])
+}
+
+/// The default parameters with every input that fits.
+pub fn usual(about: &About) -> impl Iterator<Item = Setting> + '_ {
     let all = [
         Input::Exciting(1),
         Input::Silent,
@@ -53,14 +65,17 @@ fn runs(about: &About) -> impl Iterator<Item = Setting> + '_ {
         Input::Dependent,
         Input::Uneven(1e-2),
     ];
-    let fits = |input: &Input| about.largest_rows.is_none_or(|largest| input.rows() <= largest);
-    all.into_iter().filter(fits).map(usual)
+    let fits = |input: &Input| about.largest_rows.is_none_or(|largest| rows(*input) <= largest);
+    all.into_iter().filter(fits).map(Setting::usual)
 }
 
 #[test]
 fn proper_rules_only_take_information() {
-    for about in lines().filter(|about| about.proper != Claim::No) {
-        for setting in runs(about).map(|setting| proper(about.name, setting)) {
+    for (about, Guarantees { proper, .. }) in lines() {
+        if proper.claim == Claim::No {
+            continue;
+        }
+        for setting in runs(about, proper) {
             let (_, rounding) = least_forgotten(about.name, &setting, 400);
             assert!(rounding > -ROUNDING, "{}: {rounding} {setting:?}", about.name);
         }
@@ -69,8 +84,11 @@ fn proper_rules_only_take_information() {
 
 #[test]
 fn rules_that_are_not_always_proper_can_add_information() {
-    for about in lines().filter(|about| about.proper != Claim::Always) {
-        let setting = improper(about.name).expect("a counterexample in `improper`");
+    for (about, Guarantees { proper, .. }) in lines() {
+        if proper.claim == Claim::Always {
+            continue;
+        }
+        let setting = fails(about, proper);
         let (least, _) = least_forgotten(about.name, &setting, 400);
         assert!(least < -1e-3, "{}: {least} {setting:?}", about.name);
     }
@@ -79,7 +97,7 @@ fn rules_that_are_not_always_proper_can_add_information() {
 /// The largest eigenvalue of P̄ after 50 samples and from there to the end, over P₀.
 fn growth(name: &str, setting: &Setting, samples: usize) -> f64 {
     let mut largest: f64 = 0.0;
-    setting.run(name, samples, |Passed { forgotten, .. }| {
+    run(name, setting, samples, |Passed { forgotten, .. }| {
         largest = largest.max(extremes(&forgotten).1 / setting.variance);
         largest > 1e3 * GROWTH
     });
@@ -88,27 +106,34 @@ fn growth(name: &str, setting: &Setting, samples: usize) -> f64 {
 
 #[test]
 fn without_excitation_what_is_claimed_to_be_bounded_is() {
-    for about in lines().filter(|about| about.bounded_above != Claim::No) {
+    for (about, Guarantees { bounded_above, .. }) in lines() {
+        if bounded_above.claim == Claim::No {
+            continue;
+        }
         for input in [Input::Silent, Input::Fixed] {
-            let largest = growth(about.name, &usual(input), 4000);
+            let largest = growth(about.name, &Setting::usual(input), 4000);
             assert!(largest < GROWTH, "{}: {largest} {input:?}", about.name);
         }
     }
 }
 
+/// P̄ grows without bound, or beyond 1000 P₀ and further with a more extreme input.
 #[test]
 fn without_excitation_the_others_wind_up() {
-    for about in lines().filter(|about| about.bounded_above != Claim::Always) {
-        let setting = growing(about.name).expect("a counterexample in `growing`");
+    for (about, Guarantees { bounded_above, .. }) in lines() {
+        if bounded_above.claim == Claim::Always {
+            continue;
+        }
+        let setting = fails(about, bounded_above);
         let largest = growth(about.name, &setting, 4000);
         assert!(largest > GROWTH, "{}: {largest} {setting:?}", about.name);
     }
 }
 
-/// The smallest eigenvalue of P after `samples` over that after a tenth of them.
-fn shrinkage(name: &str, setting: &Setting, samples: usize) -> f64 {
+/// The smallest eigenvalue of P after `samples` over that after a tenth of them, and over P₀.
+fn shrinkage(name: &str, setting: &Setting, samples: usize) -> (f64, f64) {
     let (mut early, mut late) = (f64::INFINITY, f64::INFINITY);
-    setting.run(name, samples, |Passed { k, information, .. }| {
+    run(name, setting, samples, |Passed { k, information, .. }| {
         let smallest = 1.0 / extremes(&information).1;
         if k < samples / 10 {
             early = early.min(smallest);
@@ -117,35 +142,58 @@ fn shrinkage(name: &str, setting: &Setting, samples: usize) -> f64 {
         }
         false
     });
-    late / early
+    (late / early, late.min(early) / setting.variance)
 }
 
 #[test]
 fn with_bounded_regressors_what_is_claimed_to_stay_does() {
-    for about in lines().filter(|about| about.bounded_below != Claim::No) {
-        for setting in runs(about) {
-            let ratio = shrinkage(about.name, &setting, 4000);
+    for (about, Guarantees { bounded_below, .. }) in lines() {
+        if bounded_below.claim == Claim::No {
+            continue;
+        }
+        for setting in runs(about, bounded_below) {
+            let (ratio, _) = shrinkage(about.name, &setting, 4000);
             assert!(ratio > 0.5, "{}: {ratio} {setting:?}", about.name);
         }
     }
 }
 
+/// P falls without bound, or regressors as large as can be take all of it.
 #[test]
 fn with_bounded_regressors_the_others_vanish() {
-    for about in lines().filter(|about| about.bounded_below != Claim::Always) {
-        let setting = vanishing(about.name).expect("a counterexample in `vanishing`");
-        let small = match about.bounded_below {
-            // not for want of a condition on the rule: unbounded regressors take all of P
-            Claim::If("regressors bounded") => {
-                let mut smallest = f64::INFINITY;
-                setting.run(about.name, 50, |Passed { after, .. }| {
-                    smallest = smallest.min(extremes(&after).0 / setting.variance);
-                    false
-                });
-                smallest < 1e-9
+    for (about, Guarantees { bounded_below, .. }) in lines() {
+        if bounded_below.claim == Claim::Always {
+            continue;
+        }
+        let setting = fails(about, bounded_below);
+        let (ratio, left) = shrinkage(about.name, &setting, 4000);
+        assert!(ratio < 0.2 || left < 1e-9, "{}: {ratio}, {left} {setting:?}", about.name);
+    }
+}
+
+#[test]
+fn what_a_rule_says_of_itself_is_what_the_registry_says() {
+    let constants = Constants {
+        parameters: N,
+        initial: (10.0, 10.0),
+        forgetting_factors: (0.9, 0.99),
+        regressor_bound: 3.0,
+    };
+    for (about, guarantees) in lines() {
+        let Guarantees { proper, bounded_above, bounded_below } = guarantees;
+        let named = [proper, bounded_above, bounded_below].map(|one| [one.holds, one.fails]);
+        for setting in named.into_iter().flatten().flatten().chain(usual(about)) {
+            let memory = Dynamic::<f64>::new(N, rows(setting.input), 1).unwrap();
+            let rule = subject(about.name, &setting).rule(memory).unwrap();
+            let (bounded, bounds) = (rule.is_bounded(), rule.bounds(&constants));
+            match bounded_above.claim {
+                Claim::Always => assert!(bounded, "{} {setting:?}", about.name),
+                Claim::If(_) => {}
+                Claim::No => assert!(!bounded, "{} {setting:?}", about.name),
             }
-            _ => shrinkage(about.name, &setting, 4000) < 0.2,
-        };
-        assert!(small, "{} {setting:?}", about.name);
+            assert!(bounds.above.is_none() || bounded, "{} {setting:?}", about.name);
+            let vanishes = bounded_below.claim == Claim::No;
+            assert!(bounds.below.is_none() || !vanishes, "{} {setting:?}", about.name);
+        }
     }
 }

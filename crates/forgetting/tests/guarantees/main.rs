@@ -14,4 +14,3 @@ mod change;
 mod claims;
 mod inputs;
 mod run;
-mod settings;

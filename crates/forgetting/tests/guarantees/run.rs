@@ -1,33 +1,21 @@
 //! A rule over a record of regressors, step by step, with the matrices of Theorem 1.
 
 use crate::dense::Dense;
-use crate::inputs::Input;
+use crate::inputs::{regressors, rows};
 use crate::record::Noise;
-use crate::subjects::{Given, Subject};
-use forgetting::rules::{Forgetting, Step, RULES};
+use crate::subjects::{Given, Item, Subject};
+use forgetting::choice::{Setting, Value};
+use forgetting::rules::{Forgetting, Step, AXIS};
 use forgetting::{Dynamic, Factor, Sample, Work};
 
 /// Parameters of every problem here.
 pub const N: usize = 3;
 
-/// What is run.
-#[derive(Clone, Debug)]
-pub struct Setting {
-    /// parameters of the rule, the defaults for the rest
-    pub given: Given,
-    /// λ
-    pub factor: f64,
-    /// P₀ = variance·I
-    pub variance: f64,
-    /// the regressors
-    pub input: Input,
-    /// the size of the errors, for rules that look at them
-    pub error: f64,
-}
-
 /// One step: R, what forgetting leaves of it, and P with the data.
 pub struct Passed {
     pub k: usize,
+    /// the sum of the squares of φ_k
+    pub phi_squared: f64,
     /// P_k, before anything
     pub before: Dense,
     /// P̄_k
@@ -38,49 +26,54 @@ pub struct Passed {
     pub information: Dense,
 }
 
-impl Setting {
-    pub fn subject(&self, name: &str) -> Subject {
-        let about = RULES.iter().find(|about| about.name == name).unwrap();
-        Subject { about, given: self.given.clone() }
-    }
+/// The rule called `name` with the parameters of this setting.
+pub fn subject(name: &str, setting: &Setting) -> Subject {
+    let about = AXIS.find(name).unwrap();
+    let given = setting.parameters.iter().map(|&(name, value)| match value {
+        Value::Real(x) => (name, Item::Real(x)),
+        Value::Word(word) => (name, Item::Word(word)),
+        other => panic!("{name} = {other:?}: a setting has numbers and words"),
+    });
+    Subject { about, given: Given(given.collect()) }
+}
 
-    /// Shows each step to `look` until it says that it has seen enough.
-    pub fn run(&self, name: &str, samples: usize, mut look: impl FnMut(Passed) -> bool) {
-        self.run_all(name, samples, &mut look);
-    }
+/// Shows each step to `look` until it says that it has seen enough.
+pub fn run(name: &str, setting: &Setting, samples: usize, mut look: impl FnMut(Passed) -> bool) {
+    run_all(name, setting, samples, &mut look);
+}
 
-    /// One copy of all rules, whatever looks at them.
-    fn run_all(&self, name: &str, samples: usize, look: &mut dyn FnMut(Passed) -> bool) {
-        let memory = Dynamic::<f64>::new(N, self.input.rows(), 1).unwrap();
-        let rule = self.subject(name).rule(memory).unwrap();
-        let mut state = rule.start(memory);
-        let mut factor = Factor::scalar(memory, self.variance).unwrap();
-        let (mut work, mut noise) = (Work::new(memory), Noise::new(7));
-        let mut gain = [0.0; N];
-        for k in 0..samples {
-            let mut phi = self.input.regressors(k, &mut noise);
-            let mut errors: Vec<f64> =
-                (0..self.input.rows()).map(|_| self.error * noise.next()).collect();
-            let mut sample = Sample::new(memory, &mut phi, &mut errors);
-            let before = dense(&factor);
-            let step = Step {
-                factor: &mut factor,
-                sample: &mut sample,
-                forgetting_factor: self.factor,
-                work: &mut work,
-            };
-            let outcome = rule.forget(&mut state, step);
-            let outcome = outcome.unwrap_or_else(|error| panic!("{name} {self:?}: {error}"));
-            let forgotten = dense(&factor);
-            if outcome.skipped.is_none() {
-                for i in 0..sample.rows() {
-                    factor.add_information(sample.row(i), &mut gain);
-                }
+/// One copy of all rules, whatever looks at them.
+fn run_all(name: &str, setting: &Setting, samples: usize, look: &mut dyn FnMut(Passed) -> bool) {
+    let rows = rows(setting.input);
+    let memory = Dynamic::<f64>::new(N, rows, 1).unwrap();
+    let rule = subject(name, setting).rule(memory).unwrap();
+    let mut state = rule.start(memory);
+    let mut factor = Factor::scalar(memory, setting.variance).unwrap();
+    let (mut work, mut noise) = (Work::new(memory), Noise::new(7));
+    let mut gain = [0.0; N];
+    for k in 0..samples {
+        let mut phi = regressors(setting.input, k, &mut noise);
+        let phi_squared = phi.iter().map(|x| x * x).sum();
+        let mut errors: Vec<f64> = (0..rows).map(|_| setting.error * noise.next()).collect();
+        let mut sample = Sample::new(memory, &mut phi, &mut errors);
+        let before = dense(&factor);
+        let step = Step {
+            factor: &mut factor,
+            sample: &mut sample,
+            forgetting_factor: setting.forgetting_factor,
+            work: &mut work,
+        };
+        let outcome = rule.forget(&mut state, step);
+        let outcome = outcome.unwrap_or_else(|error| panic!("{name} {setting:?}: {error}"));
+        let forgotten = dense(&factor);
+        if outcome.skipped.is_none() {
+            for i in 0..sample.rows() {
+                factor.add_information(sample.row(i), &mut gain);
             }
-            let (after, information) = (dense(&factor), information(&factor));
-            if look(Passed { k, before, forgotten, after, information }) {
-                break;
-            }
+        }
+        let (after, information) = (dense(&factor), information(&factor));
+        if look(Passed { k, phi_squared, before, forgotten, after, information }) {
+            break;
         }
     }
 }

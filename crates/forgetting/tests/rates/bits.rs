@@ -1,11 +1,11 @@
 //! What must not change a bit: a refused sample, a saved state, where the numbers are kept.
 
 use crate::subjects::{factors, make, sample, saved_rates, take, with};
-use forgetting::parameter::Defaults;
+use forgetting::choice::Defaults;
 use forgetting::rates::{AnyRate, RATES};
 use forgetting::rules::Rule;
 use forgetting::saved::AnyEstimator;
-use forgetting::weighting::{AnyWeighting, WEIGHTINGS};
+use forgetting::weightings::{AnyWeighting, WEIGHTINGS};
 use forgetting::{Dynamic, Error, Estimator, Fixed, Kernels, Memory, Noise, Prior, Real, Subspace};
 
 fn saves_in_the_middle<T: Kernels>(rate: &str, weighting: &str) {

@@ -1,7 +1,7 @@
 //! λ stays within its limits, in any units, in silence and in either number type.
 
 use crate::subjects::{factors, make, sample, take, with, RULES};
-use forgetting::parameter::{Defaults, Value};
+use forgetting::choice::{Defaults, Value};
 use forgetting::rates::{AnyRate, Rate, RATES};
 use forgetting::rules::Rule;
 use forgetting::{Dynamic, Error, Estimator, Kernels, Memory, Noise, Prior};

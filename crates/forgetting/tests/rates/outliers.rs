@@ -3,7 +3,7 @@
 use crate::subjects::{factors, make, sample, take};
 use forgetting::rates::RATES;
 use forgetting::saved::AnyEstimator;
-use forgetting::weighting::{Weighting, WEIGHTINGS};
+use forgetting::weightings::{Weighting, WEIGHTINGS};
 use forgetting::{Dynamic, Noise};
 
 /// ‖(Pφ̄ᵀ)_i‖ for each i, with P before the sample and φ̄ whitened by Γ = diag(gamma).

@@ -1,9 +1,9 @@
-//! Parameters are checked and documented.
+//! Parameters are checked.
 
 use crate::subjects::Given;
-use forgetting::parameter::{Kind, Parameter, Value};
+use forgetting::choice::{Kind, Parameter, Value};
 use forgetting::rates::{AnyRate, RATES};
-use forgetting::weighting::{AnyWeighting, WEIGHTINGS};
+use forgetting::weightings::{AnyWeighting, WEIGHTINGS};
 use forgetting::{Dynamic, Error};
 
 fn refused_values(parameter: &Parameter) -> Vec<f64> {
@@ -44,23 +44,6 @@ fn every_parameter_is_checked() {
                     error.unwrap_or_else(|| panic!("{name}.{} = {value:?}", parameter.name));
                 assert!(names(&error, parameter.name), "{name}: {error}");
             }
-        }
-    }
-}
-
-#[test]
-fn every_name_and_parameter_is_documented() {
-    let rates = RATES.iter().map(|about| (about.name, about.source, about.parameters));
-    let weightings = WEIGHTINGS.iter().map(|about| (about.name, about.source, about.parameters));
-    for (name, source, parameters) in rates.chain(weightings) {
-        let header: Vec<_> = source.lines().take_while(|line| line.starts_with("//!")).collect();
-        assert!(header[0].ends_with('.'), "{name}: one sentence first");
-        assert!(header.iter().any(|line| line.contains("- Use it")), "{name}: when to use it");
-        assert!(header.iter().any(|line| line.contains("Cost:")), "{name}: what it costs");
-        for parameter in parameters {
-            let row = format!("| {} |", parameter.name);
-            assert!(header.iter().any(|line| line.contains(&row)), "{name}: {row}");
-            assert!(!parameter.about.is_empty());
         }
     }
 }

@@ -1,10 +1,10 @@
 //! Estimators with a rate and a weighting of a registry, and a record for them.
 
-use forgetting::parameter::{Defaults, Kind, Value, Values};
-use forgetting::rates::{AboutRate, AnyRate, Evidence, Function, RATES};
+use forgetting::choice::{About, Defaults, Kind, Value, Values};
+use forgetting::rates::{AnyRate, Evidence, Function, RATES};
 use forgetting::rules::Rule;
 use forgetting::saved::AnyEstimator;
-use forgetting::weighting::AnyWeighting;
+use forgetting::weightings::AnyWeighting;
 use forgetting::{Dynamic, Error, Estimator, Forgetting, Kernels, Memory, Noise, Prior, Real};
 
 /// Rules that use the factor of the rate, whatever it is.
@@ -118,8 +118,7 @@ where
 
 /// Rates whose parameters are data, which can be saved.
 pub fn saved_rates() -> impl Iterator<Item = &'static str> {
-    let data = |about: &&AboutRate| {
-        about.parameters.iter().all(|parameter| parameter.kind != Kind::Function)
-    };
+    let data =
+        |about: &&About| about.parameters.iter().all(|parameter| parameter.kind != Kind::Function);
     RATES.iter().filter(data).map(|about| about.name)
 }

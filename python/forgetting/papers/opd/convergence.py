@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 import forgetting as fg
-from forgetting.choices import RATES
 
 from ..claim import Finding, claim
 from ..path import follow
@@ -44,7 +43,7 @@ def upper_bound() -> Finding:
     phi = np.random.default_rng(6).uniform(-1, 1, (20_000, 2, 4))
     largest, square = {}, float(np.linalg.norm(phi, 2, axis=(1, 2)).max() ** 2)
     for cap in (1.0, 0.99):
-        rate = RATES["prediction_error"](sensitivity=0.1, smallest=0.5, largest=cap)
+        rate = fg.PredictionError(sensitivity=0.1, smallest=0.5, largest=cap)
         rule = fg.rule("oblique_projection", forgetting_factor=rate, threshold=1e-6)
         path = follow(rule, phi, phi @ np.ones(4), every=200)
         largest[cap] = 1 / path.values[[10, -1], -1]

@@ -8,7 +8,6 @@ from functools import lru_cache
 import numpy as np
 
 import forgetting as fg
-from forgetting.choices import RATES
 
 from ..path import Path, follow
 from .system import FITTED, Array, Settings, parameters, simulate
@@ -18,7 +17,7 @@ ALGORITHMS = ("EF", "VDF-ED", "VDF-OPD")
 
 def rule(algorithm: str, settings: Settings) -> fg.Rule:
     """The rule, with the adaptive factor (21), which may reach 1."""
-    rate = RATES["prediction_error"](
+    rate = fg.PredictionError(
         sensitivity=settings.sensitivity,
         smallest=settings.smallest,
         largest=1.0,

@@ -27,18 +27,24 @@ impl<M: Memory> Spectrum<M> {
                 *x *= d.sqrt();
             }
         }
-        let tolerance = M::Real::EPSILON * M::Real::from_f64(4.0 * n as f64).sqrt();
-        for _ in 0..SWEEPS {
-            if !sweep(rows, self.vectors.as_mut(), n, tolerance) {
-                break;
-            }
-        }
+        make_orthogonal(rows, self.vectors.as_mut(), n);
         for i in 0..n {
             let row = &self.square.as_ref()[i * n..(i + 1) * n];
             let variance = dot(row, row);
             self.set_information(i, M::Real::ONE / variance.max(M::Real::FLOOR));
         }
         self.sort();
+    }
+}
+
+/// Rotates n rows of n numbers until they are orthogonal, and `vectors` with them (one-sided
+/// Jacobi).
+pub(crate) fn make_orthogonal<T: Kernels>(rows: &mut [T], vectors: &mut [T], n: usize) {
+    let tolerance = T::EPSILON * T::from_f64(4.0 * n as f64).sqrt();
+    for _ in 0..SWEEPS {
+        if !sweep(rows, vectors, n, tolerance) {
+            break;
+        }
     }
 }
 

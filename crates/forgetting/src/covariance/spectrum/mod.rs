@@ -10,6 +10,8 @@ mod cluster;
 mod deflate;
 mod jacobi;
 
+pub(crate) use jacobi::make_orthogonal;
+
 use crate::state::{is_finite, State, Visitor};
 use crate::{Factor, Memory, Real};
 use forgetting_kernels::kernel::eigen::{RankOneUpdate, Rows};

@@ -1,6 +1,6 @@
 //! When to start afresh: the criteria of `covariance_resetting`.
 
-use crate::parameter::{Parameter, Range, Value, Values};
+use crate::choice::{Parameter, Range, Value, Values};
 use crate::sample::cholesky;
 use crate::state::{is_finite, State, Visitor};
 use crate::{Error, Factor, Memory, Real, Sample};
@@ -114,7 +114,7 @@ impl<T: Real> Criterion<T> {
 /// What a criterion remembers.
 #[derive(Clone, Debug)]
 pub struct Watch<M: Memory> {
-    seen: Seen<M::Real>,
+    progress: Progress<M::Real>,
     /// not state: n x n, for a trial factorization
     square: M::Square,
     /// not state: p x p, for the root of I + φ̄ P φ̄ᵀ
@@ -123,9 +123,9 @@ pub struct Watch<M: Memory> {
     errors: M::Errors,
 }
 
-/// What was seen up to a sample, and whether that meets the criterion.
+/// How far the criterion has come, and whether the sample meets it.
 #[derive(Clone, Copy, Debug)]
-pub struct Seen<T> {
+pub struct Progress<T> {
     /// whether P is to start afresh
     pub met: bool,
     samples: u64,
@@ -135,13 +135,13 @@ pub struct Seen<T> {
 
 impl<M: Memory> State<M::Real> for Watch<M> {
     fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
-        visitor.whole(&mut self.seen.samples);
-        visitor.reals(core::slice::from_mut(&mut self.seen.excess));
-        visitor.reals(core::slice::from_mut(&mut self.seen.usual));
+        visitor.whole(&mut self.progress.samples);
+        visitor.reals(core::slice::from_mut(&mut self.progress.excess));
+        visitor.reals(core::slice::from_mut(&mut self.progress.usual));
     }
 
     fn is_sound(&self) -> bool {
-        let Seen { excess, usual, .. } = self.seen;
+        let Progress { excess, usual, .. } = self.progress;
         is_finite(self) && excess >= M::Real::ZERO && usual >= M::Real::ZERO
     }
 }
@@ -151,7 +151,7 @@ impl<M: Memory> Watch<M> {
     pub fn new(memory: M) -> Self {
         let (excess, usual) = (M::Real::ZERO, M::Real::ZERO);
         Self {
-            seen: Seen { met: false, samples: 0, excess, usual },
+            progress: Progress { met: false, samples: 0, excess, usual },
             square: memory.square(),
             noise: memory.noise(),
             errors: memory.errors(),
@@ -165,27 +165,27 @@ impl<M: Memory> Watch<M> {
         factor: &Factor<M>,
         sample: &Sample<'_, M>,
         work: &mut [M::Real],
-    ) -> Seen<M::Real> {
-        let mut seen = self.seen;
-        seen.samples += 1;
-        seen.met = match *criterion {
+    ) -> Progress<M::Real> {
+        let mut progress = self.progress;
+        progress.samples += 1;
+        progress.met = match *criterion {
             Criterion::Period(period) => {
-                self.seen.samples > 0 && self.seen.samples.is_multiple_of(period.max(1))
+                self.progress.samples > 0 && self.progress.samples.is_multiple_of(period.max(1))
             }
             Criterion::Trace(threshold) => factor.trace() < threshold,
             Criterion::SmallestEigenvalue(threshold) => self.is_below(factor, threshold),
             Criterion::Change { threshold, drift, memory } => {
                 let u = self.normalised_square(factor, sample, work);
-                let known = self.seen.samples >= memory;
-                seen.accumulate(u, known.then_some((threshold, drift)), memory)
+                let known = self.progress.samples >= memory;
+                progress.accumulate(u, known.then_some((threshold, drift)), memory)
             }
         };
-        seen
+        progress
     }
 
-    /// Remembers what was seen, once the sample is used.
-    pub fn remember(&mut self, seen: Seen<M::Real>) {
-        self.seen = seen;
+    /// Stores the progress, once the sample is used.
+    pub fn remember(&mut self, progress: Progress<M::Real>) {
+        self.progress = progress;
     }
 
     /// Whether the smallest eigenvalue of P is below `threshold`.
@@ -234,7 +234,7 @@ impl<M: Memory> Watch<M> {
     }
 }
 
-impl<T: Real> Seen<T> {
+impl<T: Real> Progress<T> {
     /// Takes note of `u`; says whether the excess passes the threshold, if there is one yet.
     fn accumulate(&mut self, u: T, test: Option<(T, T)>, memory: u64) -> bool {
         let mut met = false;

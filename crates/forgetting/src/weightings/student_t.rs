@@ -22,8 +22,8 @@
 //! Reference: K. L. Lange, R. J. A. Little, J. M. G. Taylor, *Robust statistical modeling using the
 //! t distribution*, Journal of the American Statistical Association 84(408), 1989.
 
-use super::{AboutWeighting, Weighting};
-use crate::parameter::{Parameter, Range, Value, Values};
+use super::Weighting;
+use crate::choice::{About, Parameter, Range, Value, Values};
 use crate::sample::Evidence;
 use crate::{Error, Memory, Real};
 
@@ -35,14 +35,9 @@ const DEGREES: Parameter = Parameter::real(
 );
 
 /// The registry entry.
-pub const ABOUT: AboutWeighting = AboutWeighting {
-    name: "student_t",
-    type_name: "StudentT",
-    source: include_str!("student_t.rs"),
-    parameters: &[DEGREES],
-};
+pub const ABOUT: About = About::new(&[DEGREES]);
 
-/// w = min(1, (ν + p)/(ν + r²)); see [`self`](crate::weighting::student_t).
+/// w = min(1, (ν + p)/(ν + r²)); see [`self`](crate::weightings::student_t).
 #[derive(Clone, Copy, Debug)]
 pub struct StudentT<M: Memory> {
     degrees: M::Real,
@@ -83,7 +78,7 @@ impl<M: Memory> Weighting<M> for StudentT<M> {
 #[cfg(test)]
 mod tests {
     use super::{StudentT, Weighting};
-    use crate::{Constant, Fixed, Estimator, NoForgetting, Prior};
+    use crate::{Constant, Estimator, Fixed, NoForgetting, Prior};
 
     /// ν = 4, r = 4: w = 5/20, P₊ = 1/(1 + w), θ₊ = P₊ w 4; r = ½: w = 1, not 5/4.25.
     #[test]
@@ -105,7 +100,9 @@ mod tests {
             let weighting = StudentT::<Fixed<f64, 1>>::new(nu).unwrap();
             let c = Weighting::influence(&weighting, rows).unwrap();
             let w = |r: f64| ((nu + rows as f64) / (nu + r * r)).min(1.0);
-            let most = (0..100_000).map(|k| f64::from(k) * 1e-4).fold(0.0f64, |most, r| most.max(w(r) * r));
+            let most = (0..100_000)
+                .map(|k| f64::from(k) * 1e-4)
+                .fold(0.0f64, |most, r| most.max(w(r) * r));
             assert!(most <= c * (1.0 + 1e-12) && most > c * (1.0 - 1e-4), "{most} is not {c}");
         }
     }

@@ -1,13 +1,13 @@
 //! Functions of the user's, as values of parameters.
 
-use crate::parameter::{Parameter, Value, Values};
+use crate::choice::{Parameter, Value, Values};
 use crate::sample::Evidence;
 use crate::{Error, Memory};
 use alloc::sync::Arc;
 use core::any::Any;
 use core::fmt::{Debug, Formatter};
 
-/// A matrix that a function is given.
+/// A matrix among the arguments of a function.
 #[derive(Clone, Copy)]
 pub struct Argument<'a> {
     /// number of rows
@@ -34,13 +34,13 @@ pub trait MatrixFunction: Debug + Send + Sync {
         put: &mut dyn FnMut(usize, f64),
     ) -> Result<(), Error>;
 
-    /// The function itself, for the one who made it.
+    /// The concrete type, so that the binding that wrapped a function can get it back.
     fn as_any(&self) -> &dyn Any;
 }
 
 type Call<M, A> = dyn for<'a, 'b, 'c> Fn(&'a Evidence<'b, 'c, M>) -> Result<A, Error> + Send + Sync;
 
-/// A function that is shown the evidence of a sample and answers with an `A`.
+/// A function of the evidence of a sample that answers with an `A`.
 ///
 /// A parameter that takes one has the value [`Value::Function`] with the function itself.
 pub struct EvidenceFunction<M: Memory, A: 'static> {
@@ -94,7 +94,7 @@ impl<M: Memory, A: 'static> EvidenceFunction<M, A> {
     ///
     /// # Errors
     /// [`Error`] names the parameter when there is none.
-    pub(crate) fn given(parameter: &Parameter, values: &dyn Values) -> Result<Self, Error> {
+    pub(crate) fn from_values(parameter: &Parameter, values: &dyn Values) -> Result<Self, Error> {
         match parameter.look_up(values)? {
             Value::Function(function) => function.downcast_ref::<Self>().cloned(),
             _ => None,

@@ -1,6 +1,6 @@
 //! Consecutive blocks of parameters, for the rules that treat them apart.
 
-use crate::parameter::{Parameter, Value, Values};
+use crate::choice::{Parameter, Value, Values};
 use crate::{Error, Memory, Real};
 use core::ops::Range;
 
@@ -10,7 +10,7 @@ pub struct Blocks<M: Memory> {
     /// their sizes, as numbers, the first `count` elements
     sizes: M::Vector,
     count: usize,
-    /// whether one size was given for all
+    /// whether one number stands for all sizes
     alike: bool,
 }
 

@@ -14,21 +14,16 @@
 //! Reference: B. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
 //! stability and robustness guarantees*, IEEE Transactions on Automatic Control, 2024, Theorem 1.
 
-use super::{AboutWeighting, Weighting};
-use crate::parameter::{Value, Values};
+use super::Weighting;
+use crate::choice::{About, Value, Values};
 use crate::sample::Evidence;
 use crate::{Error, Memory, Real};
 use core::marker::PhantomData;
 
 /// The registry entry.
-pub const ABOUT: AboutWeighting = AboutWeighting {
-    name: "equal",
-    type_name: "Equal",
-    source: include_str!("equal.rs"),
-    parameters: &[],
-};
+pub const ABOUT: About = About::new(&[]);
 
-/// w_k = 1; see [`self`](crate::weighting::equal).
+/// w_k = 1; see [`self`](crate::weightings::equal).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Equal<M>(PhantomData<M>);
 

@@ -1,7 +1,7 @@
-//! The parameters of rules, rates and weightings: their names, ranges and defaults as data, so
-//! that every face (Rust, Python, command line, documentation) reads the same table.
+//! The parameters of choices: their names, ranges and defaults as data, so that every face (Rust,
+//! Python, command line, documentation) reads the same table.
 
-pub use crate::range::Range;
+pub use super::range::Range;
 use crate::{Error, Real};
 
 /// What kind of value a parameter has.
@@ -23,7 +23,7 @@ pub enum Kind {
     Function,
 }
 
-/// One parameter of a rule, a rate or a weighting.
+/// One parameter of a rule, a rate, a weighting or a gate.
 #[derive(Clone, Copy, Debug)]
 pub struct Parameter {
     /// the name, the same in every language

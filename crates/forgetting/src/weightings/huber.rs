@@ -25,8 +25,8 @@
 //! Reference: P. J. Huber, *Robust estimation of a location parameter*, Annals of Mathematical
 //! Statistics 35(1), 1964.
 
-use super::{AboutWeighting, Weighting};
-use crate::parameter::{Parameter, Range, Value, Values};
+use super::Weighting;
+use crate::choice::{About, Parameter, Range, Value, Values};
 use crate::sample::Evidence;
 use crate::{Error, Memory, Real};
 
@@ -38,14 +38,9 @@ const THRESHOLD: Parameter = Parameter::real(
 );
 
 /// The registry entry.
-pub const ABOUT: AboutWeighting = AboutWeighting {
-    name: "huber",
-    type_name: "Huber",
-    source: include_str!("huber.rs"),
-    parameters: &[THRESHOLD],
-};
+pub const ABOUT: About = About::new(&[THRESHOLD]);
 
-/// w = min(1, c/r); see [`self`](crate::weighting::huber).
+/// w = min(1, c/r); see [`self`](crate::weightings::huber).
 #[derive(Clone, Copy, Debug)]
 pub struct Huber<M: Memory> {
     threshold: M::Real,

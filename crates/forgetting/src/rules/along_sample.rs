@@ -1,6 +1,6 @@
 //! Forgetting along the rows of a sample, for the rules that decompose the information matrix.
 
-use crate::rules::Step;
+use super::Step;
 use crate::{Error, Memory, Real};
 use forgetting_kernels::kernel::functions::{add_scaled, dot};
 

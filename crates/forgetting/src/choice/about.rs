@@ -1,0 +1,99 @@
+//! What a registry says of its entries: the tests, every face and the documentation read it.
+
+use super::guarantee::Guarantees;
+use super::Parameter;
+use crate::Error;
+
+/// One line of a registry: what a choice is called, takes and guarantees.
+#[derive(Clone, Copy, Debug)]
+pub struct About {
+    /// the registry name, which is also the name of the file
+    pub name: &'static str,
+    /// the name of the type
+    pub type_name: &'static str,
+    /// the text of the file; its header (`//!`) is the documentation
+    pub source: &'static str,
+    /// its own parameters
+    pub parameters: &'static [Parameter],
+    /// whether a forgetting factor, or a rate in its place, goes before them
+    pub forgetting_factor: bool,
+    /// the largest number of rows p that it takes, if there is one
+    pub largest_rows: Option<usize>,
+    /// operations per sample of a rule; empty where only the header says them
+    pub cost: &'static str,
+    /// what a rule guarantees; nothing where the choice does not forget
+    pub guarantees: Option<Guarantees>,
+}
+
+impl About {
+    /// A choice with these parameters and nothing else to say of it. The registry adds the
+    /// names and the text, which are those of the file.
+    pub const fn new(parameters: &'static [Parameter]) -> Self {
+        Self {
+            name: "",
+            type_name: "",
+            source: "",
+            parameters,
+            forgetting_factor: false,
+            largest_rows: None,
+            cost: "",
+            guarantees: None,
+        }
+    }
+
+    /// Refuses more rows than the choice takes.
+    ///
+    /// # Errors
+    /// [`Error::Value`] names `rows`.
+    pub fn check_rows(&self, rows: usize) -> Result<(), Error> {
+        match self.largest_rows {
+            Some(largest) if rows > largest => {
+                Err(Error::value("rows", rows as f64, "1 with this rule; else `subspace`"))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The lines of the header, without their comment marks.
+    pub fn header(&self) -> impl Iterator<Item = &'static str> {
+        header(self.source)
+    }
+
+    /// The first sentence of the header.
+    pub fn summary(&self) -> &'static str {
+        self.header().next().unwrap_or("")
+    }
+}
+
+/// A question that every estimator answers with one entry of a registry.
+#[derive(Clone, Copy, Debug)]
+pub struct Axis {
+    /// what one entry is called, as in "a rule"
+    pub name: &'static str,
+    /// what several are called, which is also the name of the folder
+    pub plural: &'static str,
+    /// the text of the folder's `mod.rs`; its header says what the axis is
+    pub source: &'static str,
+    /// the registry
+    pub entries: &'static [About],
+}
+
+impl Axis {
+    /// The lines of the header's first paragraph, which says what the axis is.
+    pub fn summary(&self) -> impl Iterator<Item = &'static str> {
+        header(self.source).take_while(|line| !line.is_empty())
+    }
+
+    /// The entry of this name.
+    pub fn find(&self, name: &str) -> Option<&'static About> {
+        self.entries.iter().find(|about| about.name == name)
+    }
+}
+
+/// The lines of the comment that a file begins with, without their comment marks.
+fn header(source: &'static str) -> impl Iterator<Item = &'static str> {
+    source
+        .lines()
+        .take_while(|line| line.starts_with("//!"))
+        .map(|line| line.trim_start_matches("//!").strip_prefix(' ').unwrap_or(""))
+}

@@ -1,0 +1,15 @@
+//! What a choice is: its name, its parameters with their values, what it guarantees, and the
+//! registry that lists it.
+
+mod about;
+#[cfg(feature = "alloc")]
+pub mod function;
+pub mod guarantee;
+pub mod parameter;
+mod range;
+pub(crate) mod registry;
+
+pub use about::{About, Axis};
+pub use guarantee::{Bounds, Claim, Constants, Guarantee, Guarantees, Input, Setting};
+pub use parameter::{Defaults, Kind, Parameter, Value, Values};
+pub use range::Range;
