@@ -1,29 +1,6 @@
 //! Numbers whose multiply-add rounds once.
 
-use crate::fused_numbers;
 use crate::level::Machine;
-
-fused_numbers! {
-    /// An `f64` or `f32` whose `mul_add` is fused: it rounds once.
-    ///
-    /// For machines with fused multiply-add ([`level`](crate::level) says so); on others the loops
-    /// panic.
-    ///
-    /// ```
-    /// use bytemuck::TransparentWrapper;
-    /// use forgetting::{Constant, Equal, Estimator, Exponential, Fixed, Prior};
-    /// use forgetting_cpu::Fused;
-    ///
-    /// let memory = Fixed::<Fused<f64>, 2>::new();
-    /// let prior = Prior::scalar(memory, Fused(100.0))?;
-    /// let mut estimator =
-    ///     Estimator::new(Exponential::new(), Constant::new(Fused(0.98))?, Equal::new(), prior);
-    /// let (phi, y) = ([1.0, 2.0], [3.0]);
-    /// estimator.update(Fused::wrap_slice(&phi), Fused::wrap_slice(&y))?;
-    /// # Ok::<(), forgetting::Error>(())
-    /// ```
-    pub Fused, with Machine
-}
 
 /// Defines a type of numbers whose multiply-add rounds once, and compiles its kernels.
 #[doc(hidden)]
@@ -145,4 +122,26 @@ macro_rules! fused_real {
             }
         }
     };
+}
+
+fused_numbers! {
+    /// An `f64` or `f32` whose `mul_add` is fused: it rounds once.
+    ///
+    /// For machines with fused multiply-add ([`level`](crate::level) says so); on others the loops
+    /// panic.
+    ///
+    /// ```
+    /// use bytemuck::TransparentWrapper;
+    /// use forgetting::{Constant, Equal, Estimator, Exponential, Fixed, Prior};
+    /// use forgetting_cpu::Fused;
+    ///
+    /// let memory = Fixed::<Fused<f64>, 2>::new();
+    /// let prior = Prior::scalar(memory, Fused(100.0))?;
+    /// let mut estimator =
+    ///     Estimator::new(Exponential::new(), Constant::new(Fused(0.98))?, Equal::new(), prior);
+    /// let (phi, y) = ([1.0, 2.0], [3.0]);
+    /// estimator.update(Fused::wrap_slice(&phi), Fused::wrap_slice(&y))?;
+    /// # Ok::<(), forgetting::Error>(())
+    /// ```
+    pub Fused, with Machine
 }

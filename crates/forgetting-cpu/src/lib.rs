@@ -18,7 +18,7 @@ pub use bytemuck::TransparentWrapper;
 #[doc(hidden)]
 pub use forgetting_kernels::compile_kernels;
 #[doc(hidden)]
-pub use forgetting_kernels::number::vector::Lanes;
+pub use forgetting_kernels::number::lanes::Lanes;
 #[doc(hidden)]
 pub use forgetting_kernels::number::{copy_some, Real};
 pub use level::{level, Level, VARIABLE};

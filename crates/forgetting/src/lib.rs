@@ -26,14 +26,14 @@ mod estimator;
 #[cfg(feature = "alloc")]
 pub mod fleet;
 pub mod gates;
-mod memory;
+pub mod memory;
 pub mod monitor;
 pub mod rates;
 pub mod rules;
 mod sample;
 #[cfg(feature = "alloc")]
 pub mod saved;
-pub mod state;
+
 #[cfg(test)]
 mod testing;
 pub mod weightings;
@@ -48,6 +48,7 @@ pub use estimator::AnyEstimator;
 pub use estimator::Estimator;
 pub use forgetting_kernels::kernel::outcome::Outcome;
 pub use forgetting_kernels::{Kernels, Real};
+pub use memory::state;
 #[cfg(feature = "alloc")]
 pub use memory::{Aligned, Dynamic};
 pub use memory::{Buffer, Fixed, Grid, Memory, Packed, Size};

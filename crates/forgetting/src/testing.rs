@@ -1,7 +1,9 @@
 //! One step of a rule, seen as dense matrices, for the unit tests of the rules.
 
+use crate::covariance::Factor;
+use crate::memory::{Dynamic, Memory};
 use crate::rules::{Forgetting, Forgotten, Step};
-use crate::{Dynamic, Factor, Memory, Sample, Work};
+use crate::sample::{Sample, Work};
 pub use dense::Dense;
 
 #[path = "../tests/dense/mod.rs"]

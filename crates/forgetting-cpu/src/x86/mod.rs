@@ -3,8 +3,8 @@
 //! These types are named by the functions of `level` alone, which check that the machine has the
 //! instructions before they run anything over them.
 
+use crate::fused::Fused;
 use crate::level::Vectors;
-use crate::Fused;
 use core::arch::x86_64::*;
 use forgetting_kernels::number::vector::Vector;
 

@@ -4,7 +4,7 @@
 //! every intrinsic here has its instructions.
 
 use super::{at, at_mut, Wide};
-use crate::Fused;
+use crate::fused::Fused;
 use core::arch::x86_64::*;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 use forgetting_kernels::number::lane::{Lane, One};

@@ -5,7 +5,7 @@
 
 use super::single::Single;
 use super::{at_mut, Pair, Wide};
-use crate::Fused;
+use crate::fused::Fused;
 use core::arch::x86_64::*;
 use forgetting_kernels::number::sums::Sums;
 

@@ -1,7 +1,7 @@
 //! A number for each of the eight columns of a block of U, in vector registers.
 
 use crate::number::lane::Lane;
-use crate::number::vector::Lanes;
+use crate::number::lanes::Lanes;
 use crate::number::Real;
 
 /// Eight numbers: what passes from column to column is done for all eight side by side.
@@ -86,7 +86,7 @@ impl<T: Real> Lanes<T, 8> {
 #[cfg(test)]
 mod tests {
     use super::Eight;
-    use crate::number::vector::Lanes;
+    use crate::number::lanes::Lanes;
 
     #[test]
     fn sums_and_neighbours() {

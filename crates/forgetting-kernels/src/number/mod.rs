@@ -2,10 +2,12 @@
 
 pub mod eight;
 pub mod lane;
+pub mod lanes;
 pub mod sums;
 pub mod vector;
 
-use crate::number::vector::{Lanes, Vector};
+use crate::number::lanes::Lanes;
+use crate::number::vector::Vector;
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 

@@ -2,6 +2,7 @@
 
 use crate::number::eight::Eight;
 use crate::number::lane::Lane;
+use crate::number::lanes::Lanes;
 use crate::number::Real;
 
 /// A vector whose numbers can be added up, alone or side by side with others.
@@ -42,5 +43,35 @@ pub trait Sums<T: Real>: Lane<T> {
             *sum = vector.sum();
         }
         sums
+    }
+}
+
+impl<T: Real, const L: usize> Sums<T> for Lanes<T, L> {
+    type Four = [T; 4];
+    type Eight = Lanes<T, 8>;
+
+    #[inline(always)]
+    fn sum(self) -> T {
+        let mut lanes = self.0;
+        let mut count = L;
+        while count > 4 {
+            count /= 2;
+            for lane in 0..count {
+                lanes[lane] += lanes[lane + count];
+            }
+        }
+        (lanes[0] + lanes[1]) + (lanes[2] + lanes[3])
+    }
+    #[inline(always)]
+    fn four_sums([a, b, c, d]: [Self; 4]) -> [T; 4] {
+        [a.sum(), b.sum(), c.sum(), d.sum()]
+    }
+    #[inline(always)]
+    fn numbers(four: [T; 4]) -> [T; 4] {
+        four
+    }
+    #[inline(always)]
+    fn join([a, b, c, d]: [T; 4], [e, f, g, h]: [T; 4]) -> Lanes<T, 8> {
+        Lanes([a, b, c, d, e, f, g, h])
     }
 }

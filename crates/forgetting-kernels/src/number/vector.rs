@@ -1,9 +1,9 @@
 //! Neighbouring numbers that go through the same operations together.
 
 use crate::number::lane::{Lane, One};
+use crate::number::lanes::Lanes;
 use crate::number::sums::Sums;
 use crate::number::Real;
-use core::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A chunk of numbers ([`Real::Chunk`]) in vector registers.
 ///
@@ -64,99 +64,6 @@ impl<T: Real> Abreast<T> for T {
     }
 }
 
-/// `L` numbers, 8 or 16, as an array: what the compiler makes of it.
-#[derive(Clone, Copy, Debug)]
-pub struct Lanes<T, const L: usize>(pub(crate) [T; L]);
-
-macro_rules! lane_by_lane {
-    ($($Trait:ident $method:ident;)*) => {$(
-        impl<T: Real, const L: usize> $Trait for Lanes<T, L> {
-            type Output = Self;
-            #[inline(always)]
-            fn $method(mut self, other: Self) -> Self {
-                for lane in 0..L {
-                    self.0[lane] = self.0[lane].$method(other.0[lane]);
-                }
-                self
-            }
-        }
-    )*};
-}
-lane_by_lane! { Add add; Sub sub; Mul mul; Div div; }
-
-/// What is done to each lane `i`, written where the closure of a `map` would be: that is compiled
-/// without the vector instructions.
-macro_rules! each {
-    ($L:ident, $i:ident: $first:expr, $of_each:expr) => {{
-        let mut lanes = [$first; $L];
-        for $i in 0..$L {
-            lanes[$i] = $of_each;
-        }
-        lanes
-    }};
-}
-
-impl<T: Real, const L: usize> Neg for Lanes<T, L> {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Self(each!(L, i: T::ZERO, -self.0[i]))
-    }
-}
-
-impl<T: Real, const L: usize> Lane<T> for Lanes<T, L> {
-    type Mask = [bool; L];
-
-    #[inline(always)]
-    fn splat(x: T) -> Self {
-        Self([x; L])
-    }
-    #[inline(always)]
-    fn mul_add(self, factor: Self, term: Self) -> Self {
-        Self(each!(L, i: T::ZERO, Real::mul_add(self.0[i], factor.0[i], term.0[i])))
-    }
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        Self(each!(L, i: T::ZERO, Real::max(self.0[i], other.0[i])))
-    }
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        Self(each!(L, i: T::ZERO, Real::min(self.0[i], other.0[i])))
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        Self(each!(L, i: T::ZERO, Real::abs(self.0[i])))
-    }
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        Self(each!(L, i: T::ZERO, Real::sqrt(self.0[i])))
-    }
-    #[inline(always)]
-    fn at_most(self, limit: Self) -> [bool; L] {
-        each!(L, i: false, self.0[i] <= limit.0[i])
-    }
-    #[inline(always)]
-    fn less_than(self, limit: Self) -> [bool; L] {
-        each!(L, i: false, self.0[i] < limit.0[i])
-    }
-    #[inline(always)]
-    fn both(a: [bool; L], b: [bool; L]) -> [bool; L] {
-        each!(L, i: false, a[i] & b[i])
-    }
-    #[inline(always)]
-    fn all(mask: [bool; L]) -> bool {
-        let mut all = true;
-        for lane in mask {
-            all &= lane;
-        }
-        all
-    }
-    #[inline(always)]
-    fn select(mask: [bool; L], yes: Self, no: Self) -> Self {
-        Self(each!(L, i: T::ZERO, T::select(mask[i], yes.0[i], no.0[i])))
-    }
-}
-
 impl<T: Real<Chunk = [T; L]>, const L: usize> Vector<T> for Lanes<T, L> {
     type Abreast = T;
     type One = T;
@@ -168,35 +75,5 @@ impl<T: Real<Chunk = [T; L]>, const L: usize> Vector<T> for Lanes<T, L> {
     #[inline(always)]
     fn store(self, chunk: &mut [T; L]) {
         *chunk = self.0;
-    }
-}
-
-impl<T: Real, const L: usize> Sums<T> for Lanes<T, L> {
-    type Four = [T; 4];
-    type Eight = Lanes<T, 8>;
-
-    #[inline(always)]
-    fn sum(self) -> T {
-        let mut lanes = self.0;
-        let mut count = L;
-        while count > 4 {
-            count /= 2;
-            for lane in 0..count {
-                lanes[lane] += lanes[lane + count];
-            }
-        }
-        (lanes[0] + lanes[1]) + (lanes[2] + lanes[3])
-    }
-    #[inline(always)]
-    fn four_sums([a, b, c, d]: [Self; 4]) -> [T; 4] {
-        [a.sum(), b.sum(), c.sum(), d.sum()]
-    }
-    #[inline(always)]
-    fn numbers(four: [T; 4]) -> [T; 4] {
-        four
-    }
-    #[inline(always)]
-    fn join([a, b, c, d]: [T; 4], [e, f, g, h]: [T; 4]) -> Lanes<T, 8> {
-        Lanes([a, b, c, d, e, f, g, h])
     }
 }

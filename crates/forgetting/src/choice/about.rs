@@ -2,7 +2,7 @@
 
 use super::guarantee::Guarantees;
 use super::Parameter;
-use crate::Error;
+use crate::error::Error;
 
 /// One line of a registry: what a choice is called, takes and guarantees.
 #[derive(Clone, Copy, Debug)]

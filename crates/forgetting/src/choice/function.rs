@@ -1,8 +1,9 @@
 //! Functions of the user's, as values of parameters.
 
 use crate::choice::{Parameter, Value, Values};
+use crate::error::Error;
+use crate::memory::Memory;
 use crate::sample::Evidence;
-use crate::{Error, Memory};
 use alloc::sync::Arc;
 use core::any::Any;
 use core::fmt::{Debug, Formatter};

@@ -3,6 +3,8 @@
 
 mod about;
 #[cfg(feature = "alloc")]
+pub(crate) mod bytes;
+#[cfg(feature = "alloc")]
 pub mod function;
 pub mod guarantee;
 pub mod parameter;

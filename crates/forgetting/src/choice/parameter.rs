@@ -2,7 +2,8 @@
 //! Python, command line, documentation) reads the same table.
 
 pub use super::range::Range;
-use crate::{Error, Real};
+use crate::error::Error;
+use forgetting_kernels::Real;
 
 /// What kind of value a parameter has.
 #[derive(Clone, Copy, Debug, PartialEq)]

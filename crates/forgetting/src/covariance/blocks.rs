@@ -1,7 +1,7 @@
 //! Replacing the factor by one that is block diagonal.
 
 use super::Factor;
-use crate::Memory;
+use crate::memory::Memory;
 use forgetting_kernels::kernel::layout;
 
 impl<M: Memory> Factor<M> {

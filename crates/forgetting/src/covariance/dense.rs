@@ -1,8 +1,10 @@
 //! From a dense symmetric matrix to the factor.
 
 use super::Factor;
-use crate::{Error, Memory, Real};
+use crate::error::Error;
+use crate::memory::Memory;
 use forgetting_kernels::kernel::{functions, layout};
+use forgetting_kernels::Real;
 
 impl<M: Memory> Factor<M> {
     /// The factor of the n x n matrix `covariance`, of which it reads the upper triangle.

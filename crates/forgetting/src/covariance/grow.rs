@@ -1,8 +1,10 @@
 //! Adding covariance: P ← c·P and P ← P + c·x·xᵀ. P can only grow, and is watched for overflow.
 
 use super::Factor;
-use crate::{Error, Memory, Real};
+use crate::error::Error;
+use crate::memory::Memory;
 use forgetting_kernels::kernel::{functions, layout};
+use forgetting_kernels::Real;
 
 impl<M: Memory> Factor<M> {
     /// P ← `growth`·P with `growth` ≥ 1. O(n).
@@ -94,9 +96,10 @@ impl<M: Memory> Factor<M> {
 #[cfg(test)]
 mod tests {
     use super::Factor;
-    use crate::{Dynamic, Kernels};
+    use crate::memory::Dynamic;
     use alloc::vec;
     use forgetting_kernels::kernel::layout::place;
+    use forgetting_kernels::Kernels;
 
     /// The trace of P grows by that of what is added, also where D of a long column grows to
     /// many times what it was.

@@ -1,7 +1,8 @@
 //! Adding information: P⁻¹ ← P⁻¹ + fᵀf. P can only shrink, and never below D ≥ floor.
 
 use super::Factor;
-use crate::{Error, Memory, Real};
+use crate::error::Error;
+use crate::memory::Memory;
 use forgetting_kernels::kernel::form::Form;
 use forgetting_kernels::kernel::functions;
 use forgetting_kernels::kernel::measure::{Measure, Place};
@@ -9,6 +10,7 @@ use forgetting_kernels::kernel::measured::Measured;
 use forgetting_kernels::kernel::outcome::Outcome;
 use forgetting_kernels::kernel::runs::Steps;
 use forgetting_kernels::Kernels;
+use forgetting_kernels::Real;
 
 impl<M: Memory> Factor<M> {
     /// P⁻¹ ← P⁻¹ + fᵀf for n numbers `f`; leaves P·fᵀ (with the P of before, that is a times the
@@ -154,8 +156,9 @@ impl<M: Memory> Factor<M> {
 #[cfg(test)]
 mod tests {
     use super::Factor;
-    use crate::{Dynamic, Real};
+    use crate::memory::Dynamic;
     use forgetting_kernels::kernel::layout::place;
+    use forgetting_kernels::Real;
 
     /// P with these columns above the diagonal and this D.
     fn factor<const N: usize>(columns: &[&[f64]], diagonal: [f64; N]) -> Factor<Dynamic<f64>> {

@@ -13,13 +13,15 @@ pub mod spectrum;
 
 pub use prior::Prior;
 
-use crate::state::Visitor;
-use crate::{Error, Memory, Real};
+use crate::error::Error;
+use crate::memory::state::Visitor;
+use crate::memory::Memory;
 use core::cmp::Ordering;
 use forgetting_kernels::kernel::functions;
 use forgetting_kernels::kernel::layout;
 use forgetting_kernels::kernel::variances::Variances;
 use forgetting_kernels::Kernels;
+use forgetting_kernels::Real;
 
 /// P = U D Uᵀ, n x n and positive definite.
 #[derive(Clone, Debug)]

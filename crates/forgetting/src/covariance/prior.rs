@@ -1,8 +1,11 @@
 //! What is believed before the first sample: θ₀ and P₀.
 
+use crate::covariance::Factor;
+use crate::error::Error;
 #[cfg(feature = "alloc")]
-use crate::state::Visitor;
-use crate::{Error, Factor, Memory, Real};
+use crate::memory::state::Visitor;
+use crate::memory::Memory;
+use forgetting_kernels::Real;
 
 /// P₀ as it was given.
 #[derive(Clone, Debug)]

@@ -1,13 +1,15 @@
 //! Reading an estimator: predictions, θ, P, the monitor, what it was made of, and its state.
 
 use super::Estimator;
+use crate::covariance::{Factor, Prior};
+use crate::error::Error;
 use crate::gates::AnyGate;
+use crate::memory::state::{State, Visitor};
+use crate::memory::Memory;
 use crate::monitor::{Health, Monitor};
 use crate::rates::Rate;
 use crate::rules::Forgetting;
-use crate::state::{State, Visitor};
 use crate::weightings::Weighting;
-use crate::{Error, Factor, Memory, Prior};
 use forgetting_kernels::kernel::functions::dot;
 
 impl<F, R, W, M> Estimator<F, R, W, M>

@@ -1,10 +1,10 @@
 //! The estimator of which everything is chosen at run time: what fleets and saved states are made of.
 
 use super::{Estimator, EstimatorState};
+use crate::memory::Dynamic;
 use crate::rates::AnyRate;
 use crate::rules::Rule;
 use crate::weightings::AnyWeighting;
-use crate::Dynamic;
 use forgetting_kernels::kernel::form::Form;
 use forgetting_kernels::Kernels;
 

@@ -1,13 +1,15 @@
 //! What an estimator is made of. It never changes while samples come.
 
 use super::{Estimator, EstimatorState};
+use crate::covariance::{Factor, Prior};
 use crate::gates::{AnyGate, Gate};
+use crate::memory::Memory;
 use crate::monitor::Monitor;
 use crate::rates::Rate;
 use crate::rules::Forgetting;
 use crate::weightings::Weighting;
-use crate::{Factor, Memory, Prior, Real};
 use forgetting_kernels::kernel::form::Form;
+use forgetting_kernels::Real;
 
 /// Rule, rate, weighting, gate and prior, and what follows from them.
 #[derive(Clone, Debug)]

@@ -1,8 +1,9 @@
 //! What an estimator records of each sample on request: P after forgetting, and the whitened
 //! innovation.
 
+use crate::covariance::Factor;
+use crate::memory::Memory;
 use crate::sample::{whiten_errors, Sample, Whitened, Work};
-use crate::{Factor, Memory};
 
 /// What is recorded of the last sample: nothing unless it was asked for. Not part of the state.
 #[derive(Clone, Debug)]

@@ -3,13 +3,14 @@
 use super::design::Steady;
 use super::steps::forgotten;
 use super::{Estimator, EstimatorState};
+use crate::memory::Memory;
 use crate::rates::Rate;
 use crate::rules::{Forgetting, Forgotten};
 use crate::sample::{Answer, Skip, Update, Whitened};
 use crate::weightings::Weighting;
-use crate::{Memory, Real};
 use forgetting_kernels::kernel::outcome::Outcome;
 use forgetting_kernels::kernel::watch::Observations;
+use forgetting_kernels::Real;
 
 impl<F, R, W, M> Estimator<F, R, W, M>
 where

@@ -16,12 +16,14 @@ mod state;
 mod statistics;
 mod steps;
 
+use crate::covariance::Prior;
+use crate::error::Error;
 use crate::gates::{AnyGate, Open};
+use crate::memory::Memory;
 use crate::rates::Rate;
 use crate::rules::Forgetting;
 use crate::sample::{Noise, SampleBuffers, Update, Work};
 use crate::weightings::Weighting;
-use crate::{Error, Memory, Prior};
 #[cfg(feature = "alloc")]
 pub use any::AnyEstimator;
 use design::Design;

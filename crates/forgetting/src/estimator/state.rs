@@ -1,10 +1,12 @@
 //! What the next sample needs of those before it.
 
+use crate::covariance::Factor;
+use crate::memory::state::{State, Visitor, MOST_SAMPLES};
+use crate::memory::Memory;
 use crate::monitor::Monitor;
 use crate::rates::Rate;
 use crate::rules::Forgetting;
-use crate::state::{State, Visitor, MOST_SAMPLES};
-use crate::{Factor, Memory, Real};
+use forgetting_kernels::Real;
 
 /// θ, P, what rule and rate remember, the number of samples, and the monitor if there is one.
 #[derive(Clone, Debug)]

@@ -1,10 +1,13 @@
 //! What is computed once of a sample, before it is used, and lent to gate, weighting and rate.
 
+use crate::covariance::Factor;
+use crate::error::Error;
 use crate::gates::{AnyGate, Gate};
+use crate::memory::Memory;
 use crate::sample::{leverage, not_finite, out_of_range, whiten_errors};
 use crate::sample::{Answer, Evidence, Needs, Sample, Work};
 use crate::weightings::Weighting;
-use crate::{Error, Factor, Memory, Real};
+use forgetting_kernels::Real;
 
 /// What is computed once of a sample and lent to gate, weighting and rate as [`Evidence`].
 #[derive(Clone, Copy)]

@@ -3,15 +3,17 @@
 use super::diagnostics::Diagnostics;
 use super::statistics::Statistics;
 use super::{Buffers, Design, Estimator, EstimatorState};
+use crate::error::Error;
 use crate::gates::Gate;
+use crate::memory::Memory;
 use crate::rates::Rate;
 use crate::rules::{Forgetting, Forgotten, Step};
 use crate::sample::{leverage, measure_rows, whiten};
 use crate::sample::{Answer, Noise, Sample, Skip, Update, Whitened};
 use crate::weightings::Weighting;
-use crate::{Error, Memory, Real};
 use forgetting_kernels::kernel::form::Form;
 use forgetting_kernels::kernel::watch::Observation;
+use forgetting_kernels::Real;
 
 impl<F, R, W, M> Estimator<F, R, W, M>
 where

@@ -1,12 +1,14 @@
 //! Which estimators can be streams of one fleet.
 
+use crate::choice::bytes;
 use crate::choice::Value;
+use crate::error::Error;
+use crate::estimator::AnyEstimator;
 use crate::gates::Gate;
+use crate::memory::Memory;
 use crate::rates::Rate;
 use crate::rules::Forgetting;
-use crate::saved::{write_choice, AnyEstimator};
 use crate::weightings::Weighting;
-use crate::{Error, Memory};
 use alloc::vec::Vec;
 use forgetting_kernels::Kernels;
 
@@ -50,9 +52,9 @@ fn written(
     name: &str,
     each: impl FnOnce(&mut dyn FnMut(&str, Value<'_>)),
 ) -> Result<Vec<u8>, Error> {
-    let mut bytes = Vec::new();
-    write_choice(&mut bytes, name, each)?;
-    Ok(bytes)
+    let mut written = Vec::new();
+    bytes::write(&mut written, name, each)?;
+    Ok(written)
 }
 
 fn rule<T: Kernels>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {

@@ -15,9 +15,12 @@ pub use forgetting_kernels::kernel::lanes::streams::{Outputs, Samples, REFUSED};
 pub use kind::check_kind;
 pub use part::{Part, Parts};
 
+use crate::covariance::Prior;
+use crate::error::Error;
+use crate::estimator::AnyEstimator;
+use crate::estimator::Estimator;
+use crate::memory::{Dynamic, Memory};
 use crate::rates::{AnyRate, Constant, Rate};
-use crate::saved::AnyEstimator;
-use crate::{Dynamic, Error, Estimator, Memory, Prior};
 use alloc::vec::Vec;
 use forgetting_kernels::kernel::form::Form;
 use forgetting_kernels::kernel::lanes::storage::{Layout, Line};

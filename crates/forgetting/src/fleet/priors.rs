@@ -1,8 +1,10 @@
 //! What each stream starts from: the same for all, or a prior of its own.
 
 use super::reserve;
-use crate::state::Visitor;
-use crate::{Dynamic, Error, Prior};
+use crate::covariance::Prior;
+use crate::error::Error;
+use crate::memory::state::Visitor;
+use crate::memory::Dynamic;
 use alloc::vec::Vec;
 use forgetting_kernels::Kernels;
 

@@ -1,7 +1,7 @@
 //! What all streams hold, in the order of the streams.
 
 use super::{Fleet, Line};
-use crate::Error;
+use crate::error::Error;
 use forgetting_kernels::kernel::lanes::Predict;
 use forgetting_kernels::Kernels;
 

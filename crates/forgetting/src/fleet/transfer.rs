@@ -1,10 +1,10 @@
 //! Streams as estimators and back.
 
 use super::{check_kind, extend, form_of, strength, Fleet, Line};
+use crate::error::Error;
+use crate::estimator::AnyEstimator;
+use crate::memory::state::Visitor;
 use crate::rates::Rate;
-use crate::saved::AnyEstimator;
-use crate::state::Visitor;
-use crate::Error;
 use alloc::vec::Vec;
 use forgetting_kernels::Kernels;
 

@@ -32,7 +32,9 @@ use super::otherwise::{self, OTHERWISE};
 use super::{Answer, Gate};
 use crate::choice::{About, Parameter, Range, Value, Values};
 use crate::sample::Evidence;
-use crate::{Error, Memory, Real};
+use crate::error::Error;
+use crate::memory::Memory;
+use forgetting_kernels::Real;
 
 const WIDTH: Parameter = Parameter::real(
     "width",
@@ -82,7 +84,13 @@ impl<M: Memory> Gate<M> for DeadZone<M> {
 mod tests {
     use super::DeadZone;
     use crate::gates::{Answer, AnyGate};
-    use crate::{Constant, Dynamic, Equal, Estimator, Exponential, Noise, Prior, Skip};
+    use crate::covariance::Prior;
+    use crate::estimator::Estimator;
+    use crate::memory::Dynamic;
+    use crate::rates::Constant;
+    use crate::rules::Exponential;
+    use crate::sample::{Noise, Skip};
+    use crate::weightings::Equal;
 
     #[test]
     fn the_error_counts_in_standard_deviations_of_the_target_where_it_is_longest() {

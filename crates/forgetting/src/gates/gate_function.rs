@@ -21,7 +21,8 @@ use super::{Answer, Gate};
 use crate::choice::function::EvidenceFunction;
 use crate::choice::{About, Kind, Parameter, Range, Value, Values};
 use crate::sample::{Evidence, Needs};
-use crate::{Error, Memory};
+use crate::error::Error;
+use crate::memory::Memory;
 
 const FUNCTION: Parameter = Parameter::elements(
     "function",

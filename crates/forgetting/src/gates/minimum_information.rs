@@ -28,7 +28,9 @@ use super::otherwise::{self, OTHERWISE};
 use super::{Answer, Gate};
 use crate::choice::{About, Parameter, Range, Value, Values};
 use crate::sample::{Evidence, Needs};
-use crate::{Error, Memory, Real};
+use crate::error::Error;
+use crate::memory::Memory;
+use forgetting_kernels::Real;
 
 const INFORMATION: Parameter = Parameter::real(
     "information",
@@ -82,7 +84,13 @@ impl<M: Memory> Gate<M> for MinimumInformation<M> {
 mod tests {
     use super::MinimumInformation;
     use crate::gates::{Answer, AnyGate};
-    use crate::{Constant, Equal, Estimator, Exponential, Fixed, Prior, Skip};
+    use crate::covariance::Prior;
+    use crate::estimator::Estimator;
+    use crate::memory::Fixed;
+    use crate::rates::Constant;
+    use crate::rules::Exponential;
+    use crate::sample::Skip;
+    use crate::weightings::Equal;
 
     fn estimator(
         information: f64,

@@ -6,8 +6,9 @@
 
 use crate::choice::registry::registry;
 use crate::choice::{Value, Values};
+use crate::error::Error;
+use crate::memory::Memory;
 use crate::sample::{Evidence, Needs};
-use crate::{Error, Memory};
 
 mod otherwise;
 

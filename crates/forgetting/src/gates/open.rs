@@ -13,7 +13,8 @@
 use super::{Answer, Gate};
 use crate::choice::{About, Value, Values};
 use crate::sample::Evidence;
-use crate::{Error, Memory};
+use crate::error::Error;
+use crate::memory::Memory;
 use core::marker::PhantomData;
 
 /// The registry entry.

@@ -1,8 +1,8 @@
 //! The parameter `otherwise` of a gate: what is done with a sample that does not pass.
 
 use crate::choice::{Parameter, Value, Values};
+use crate::error::Error;
 use crate::sample::Answer;
-use crate::Error;
 
 /// The parameter.
 pub(super) const OTHERWISE: Parameter = Parameter::word(

@@ -1,11 +1,12 @@
 //! Numbers on the heap, of sizes known when they are made.
 
 use super::Memory;
-use crate::{Error, Kernels, Real};
+use crate::error::Error;
 use alloc::{vec, vec::Vec};
 use core::marker::PhantomData;
 use forgetting_kernels::kernel::layout::{capacity, set_identity};
 use forgetting_kernels::kernel::scratch;
+use forgetting_kernels::{Kernels, Real};
 
 /// Sizes chosen when the estimator is made; its buffers are on the heap.
 #[derive(Clone, Copy, Debug, PartialEq)]

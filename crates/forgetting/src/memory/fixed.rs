@@ -1,10 +1,10 @@
 //! Numbers on the stack, of sizes known to the compiler.
 
 use super::{Buffer, Memory};
-use crate::{Kernels, Real};
 use core::marker::PhantomData;
 use forgetting_kernels::kernel::layout::{most, set_identity};
 use forgetting_kernels::kernel::scratch;
+use forgetting_kernels::{Kernels, Real};
 
 /// `B` blocks of `A` numbers on the stack.
 #[derive(Clone, Copy, Debug)]

@@ -9,6 +9,7 @@ use forgetting_kernels::Kernels;
 #[cfg(feature = "alloc")]
 mod dynamic;
 mod fixed;
+pub mod state;
 
 #[cfg(feature = "alloc")]
 pub use dynamic::{Aligned, Dynamic};

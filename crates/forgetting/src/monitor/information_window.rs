@@ -12,8 +12,9 @@
 //! trace of A since ([`InformationWindow::noise`]): an eigenvalue below that is 0.
 
 use crate::choice::{Parameter, Range};
-use crate::{Error, Real};
+use crate::error::Error;
 use alloc::{vec, vec::Vec};
+use forgetting_kernels::Real;
 
 /// A sliding window over whitened regressors.
 #[derive(Clone, Debug)]

@@ -18,10 +18,12 @@
 //! standard deviation it has had: whatever winds up becomes it, in any units. A block is
 //! N = max(10, 2n, half the memory) samples, so that its end, O(n²), costs O(n) a sample.
 
-use crate::state::{is_finite, State, Visitor};
-use crate::{Factor, Memory, Real};
+use crate::covariance::Factor;
+use crate::memory::state::{is_finite, State, Visitor};
+use crate::memory::Memory;
 use forgetting_kernels::kernel::watch::{Observation, Observations, Residual, Silence, Watch};
 use forgetting_kernels::Kernels;
+use forgetting_kernels::Real;
 mod health;
 #[cfg(feature = "alloc")]
 mod information_window;

@@ -2,10 +2,12 @@
 //! deviation it has had.
 
 use super::{FACTOR, RECOVERY, SHARE};
-use crate::state::{is_finite, State, Visitor};
-use crate::{Factor, Memory, Real};
+use crate::covariance::Factor;
+use crate::memory::state::{is_finite, State, Visitor};
+use crate::memory::Memory;
 use forgetting_kernels::kernel::functions::dot;
 use forgetting_kernels::kernel::watch::Gauge;
+use forgetting_kernels::Real;
 
 /// w, its variance, and the information that it gets.
 #[derive(Clone, Debug)]

@@ -1,8 +1,9 @@
 //! A fast and a slow average of the same numbers.
 
 use crate::choice::{Parameter, Range, Value, Values};
-use crate::state::Visitor;
-use crate::{Error, Real};
+use crate::error::Error;
+use crate::memory::state::Visitor;
+use forgetting_kernels::Real;
 
 const SHORT: Parameter = Parameter::real(
     "short_memory",

@@ -17,7 +17,9 @@
 
 use super::{Evidence, Rate};
 use crate::choice::{About, Parameter, Range, Value, Values};
-use crate::{Error, Memory, Real};
+use crate::error::Error;
+use crate::memory::Memory;
+use forgetting_kernels::Real;
 
 const FORGETTING_FACTOR: Parameter = Parameter::real(
     "forgetting_factor",

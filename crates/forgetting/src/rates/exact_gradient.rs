@@ -27,8 +27,12 @@ use super::gradient::STEP_SIZE;
 use super::limits::{largest, SMALLEST};
 use super::{Evidence, Limits, Rate};
 use crate::choice::{About, Parameter, Range, Value, Values};
-use crate::state::{is_factor, is_finite, State, Visitor};
-use crate::{Error, Factor, Memory, Real, Sample};
+use crate::memory::state::{State, Visitor, is_factor, is_finite};
+use crate::covariance::Factor;
+use crate::error::Error;
+use crate::memory::Memory;
+use crate::sample::Sample;
+use forgetting_kernels::Real;
 use forgetting_kernels::kernel::functions::{add_scaled, dot};
 
 const LARGEST: Parameter = largest(0.9999, Range::FRACTION);
@@ -219,7 +223,12 @@ impl<M: Memory> Rate<M> for ExactGradient<M> {
 mod tests {
     extern crate std;
     use super::{ExactGradient, Limits};
-    use crate::{Constant, Dynamic, Equal, Estimator, Exponential, Prior};
+    use crate::covariance::Prior;
+    use crate::estimator::Estimator;
+    use crate::memory::Dynamic;
+    use crate::rates::Constant;
+    use crate::rules::Exponential;
+    use crate::weightings::Equal;
     use std::vec::Vec;
 
     fn sample(k: u32) -> ([f64; 6], [f64; 4]) {

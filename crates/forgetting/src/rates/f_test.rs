@@ -40,7 +40,9 @@ use super::rms_ratio::{factor, Past, SENSITIVITY};
 use super::{Evidence, Limits, Rate, Windows};
 use crate::choice::{About, Parameter, Range, Value, Values};
 use crate::sample::cholesky;
-use crate::{Error, Memory, Real};
+use crate::error::Error;
+use crate::memory::Memory;
+use forgetting_kernels::Real;
 use core::marker::PhantomData;
 use forgetting_kernels::kernel::functions::{add_scaled, dot};
 use forgetting_kernels::Kernels;
@@ -241,7 +243,12 @@ impl<M: Memory> Rate<M> for FTest<M> {
 mod tests {
     extern crate std;
     use super::{inverse_root, product, quantile, FTest, Limits, Windows};
-    use crate::{Dynamic, Equal, Error, Estimator, Exponential, Fixed, Prior};
+    use crate::covariance::Prior;
+    use crate::error::Error;
+    use crate::estimator::Estimator;
+    use crate::memory::{Dynamic, Fixed};
+    use crate::rules::Exponential;
+    use crate::weightings::Equal;
 
     #[test]
     fn for_one_error_it_is_the_ratio_of_two_variances() {

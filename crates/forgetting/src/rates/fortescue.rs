@@ -28,7 +28,9 @@
 use super::limits::{largest, SMALLEST};
 use super::{Evidence, Limits, Needs, Next, Rate};
 use crate::choice::{About, Parameter, Range, Value, Values};
-use crate::{Error, Memory, Real};
+use crate::error::Error;
+use crate::memory::Memory;
+use forgetting_kernels::Real;
 
 const MEMORY: Parameter = Parameter::real(
     "memory",
@@ -112,7 +114,12 @@ impl<M: Memory> Rate<M> for Fortescue<M> {
 #[cfg(test)]
 mod tests {
     use super::{Fortescue, Limits};
-    use crate::{Dynamic, Equal, Estimator, Exponential, Fixed, Noise, Prior};
+    use crate::covariance::Prior;
+    use crate::estimator::Estimator;
+    use crate::memory::{Dynamic, Fixed};
+    use crate::rules::Exponential;
+    use crate::sample::Noise;
+    use crate::weightings::Equal;
 
     #[test]
     fn one_row_is_the_published_form_one_sample_later() {

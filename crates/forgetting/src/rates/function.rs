@@ -20,7 +20,8 @@
 use super::{Evidence, Needs, Rate};
 use crate::choice::function::EvidenceFunction;
 use crate::choice::{About, Kind, Parameter, Range, Value, Values};
-use crate::{Error, Memory};
+use crate::error::Error;
+use crate::memory::Memory;
 
 const FUNCTION: Parameter = Parameter::elements(
     "function",
@@ -81,7 +82,10 @@ mod tests {
     use crate::rules::Rule;
     use crate::saved::AnyEstimator;
     use crate::weightings::AnyWeighting;
-    use crate::{Dynamic, Error, Estimator, Prior};
+    use crate::covariance::Prior;
+    use crate::error::Error;
+    use crate::estimator::Estimator;
+    use crate::memory::Dynamic;
 
     fn estimator(function: Function<Dynamic<f64>>) -> AnyEstimator<f64> {
         let memory = Dynamic::new(1, 1, 1).unwrap();

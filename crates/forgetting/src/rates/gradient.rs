@@ -35,8 +35,10 @@ use super::averages::{Averages, Memories};
 use super::limits::{largest, SMALLEST};
 use super::{Evidence, Limits, Rate};
 use crate::choice::{About, Parameter, Range, Value, Values};
-use crate::state::{is_factor, State, Visitor};
-use crate::{Error, Memory, Real};
+use crate::memory::state::{State, Visitor, is_factor};
+use crate::error::Error;
+use crate::memory::Memory;
+use forgetting_kernels::Real;
 
 pub(super) const STEP_SIZE: Parameter = Parameter::real(
     "step_size",

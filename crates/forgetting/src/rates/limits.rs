@@ -1,7 +1,8 @@
 //! The interval that a rate keeps λ in.
 
 use crate::choice::{Parameter, Range, Value, Values};
-use crate::{Error, Real};
+use crate::error::Error;
+use forgetting_kernels::Real;
 
 /// The smallest λ of a design that adapts.
 pub const SMALLEST: Parameter = Parameter::real(

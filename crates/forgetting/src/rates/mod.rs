@@ -5,8 +5,9 @@
 
 use crate::choice::registry::registry;
 use crate::choice::{Value, Values};
-use crate::state::State;
-use crate::{Error, Memory};
+use crate::error::Error;
+use crate::memory::state::State;
+use crate::memory::Memory;
 
 mod averages;
 mod f_law;

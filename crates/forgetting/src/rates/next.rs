@@ -1,7 +1,7 @@
 //! The state of a design that finds λ for the next sample and remembers nothing else.
 
-use crate::state::{is_factor, State, Visitor};
-use crate::Real;
+use crate::memory::state::{is_factor, State, Visitor};
+use forgetting_kernels::Real;
 
 /// The next λ.
 #[derive(Clone, Copy, Debug)]

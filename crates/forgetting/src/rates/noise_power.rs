@@ -34,8 +34,10 @@ use super::averages::{Averages, Memories};
 use super::limits::{largest, SMALLEST};
 use super::{Evidence, Limits, Needs, Rate};
 use crate::choice::{About, Parameter, Range, Value, Values};
-use crate::state::{is_factor, State, Visitor};
-use crate::{Error, Memory, Real};
+use crate::memory::state::{State, Visitor, is_factor};
+use crate::error::Error;
+use crate::memory::Memory;
+use forgetting_kernels::Real;
 
 const RATIO: Parameter = Parameter::real(
     "ratio",
@@ -160,7 +162,11 @@ impl<M: Memory> Rate<M> for NoisePower<M> {
 #[cfg(test)]
 mod tests {
     use super::{Limits, Memories, NoisePower};
-    use crate::{Equal, Estimator, Exponential, Fixed, Prior};
+    use crate::covariance::Prior;
+    use crate::estimator::Estimator;
+    use crate::memory::Fixed;
+    use crate::rules::Exponential;
+    use crate::weightings::Equal;
 
     /// n = 1, K_a = 1 and K_b = 2: A = e², B the mean of both; λ = 1 at first.
     #[test]

@@ -30,7 +30,9 @@
 use super::limits::{largest, SMALLEST};
 use super::{Evidence, Limits, Needs, Rate};
 use crate::choice::{About, Parameter, Range, Value, Values};
-use crate::{Error, Memory, Real};
+use crate::error::Error;
+use crate::memory::Memory;
+use forgetting_kernels::Real;
 
 const SENSITIVITY: Parameter = Parameter::real(
     "sensitivity",
@@ -91,7 +93,11 @@ impl<M: Memory> Rate<M> for PredictionError<M> {
 #[cfg(test)]
 mod tests {
     use super::{Limits, PredictionError};
-    use crate::{Equal, Estimator, Exponential, Fixed, Prior};
+    use crate::covariance::Prior;
+    use crate::estimator::Estimator;
+    use crate::memory::Fixed;
+    use crate::rules::Exponential;
+    use crate::weightings::Equal;
 
     #[test]
     fn is_one_less_the_effect_over_the_spread() {

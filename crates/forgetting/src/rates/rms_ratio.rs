@@ -29,8 +29,10 @@
 use super::limits::{largest, SMALLEST};
 use super::{Evidence, Limits, Rate, Windows};
 use crate::choice::{About, Parameter, Range, Value, Values};
-use crate::state::{State, Visitor};
-use crate::{Error, Memory, Real};
+use crate::memory::state::{State, Visitor};
+use crate::error::Error;
+use crate::memory::Memory;
+use forgetting_kernels::Real;
 use core::marker::PhantomData;
 
 pub(super) const SENSITIVITY: Parameter = Parameter::real(
@@ -140,7 +142,12 @@ impl<M: Memory> Rate<M> for RmsRatio<M> {
 #[cfg(test)]
 mod tests {
     use super::{Limits, RmsRatio, Windows};
-    use crate::{Equal, Error, Estimator, Exponential, Fixed, Prior};
+    use crate::covariance::Prior;
+    use crate::error::Error;
+    use crate::estimator::Estimator;
+    use crate::memory::Fixed;
+    use crate::rules::Exponential;
+    use crate::weightings::Equal;
 
     #[test]
     fn compares_the_last_errors_with_those_before() {

@@ -17,7 +17,9 @@
 
 use super::{Evidence, Rate};
 use crate::choice::{About, Kind, Parameter, Range, Value, Values};
-use crate::{Error, Memory, Real};
+use crate::error::Error;
+use crate::memory::Memory;
+use forgetting_kernels::Real;
 
 const FACTORS: Parameter = Parameter::elements(
     "factors",
@@ -126,7 +128,13 @@ impl<M: Memory> Rate<M> for Schedule<M> {
 #[cfg(test)]
 mod tests {
     use super::{End, Schedule};
-    use crate::{Constant, Equal, Error, Estimator, Exponential, Fixed, Memory, Prior, Rate};
+    use crate::covariance::Prior;
+    use crate::error::Error;
+    use crate::estimator::Estimator;
+    use crate::memory::{Fixed, Memory};
+    use crate::rates::{Constant, Rate};
+    use crate::rules::Exponential;
+    use crate::weightings::Equal;
 
     type Three = Fixed<f64, 1, 1, 1, 3>;
 

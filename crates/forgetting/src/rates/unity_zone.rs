@@ -26,7 +26,9 @@
 use super::limits::{largest, SMALLEST};
 use super::{Evidence, Limits, Rate};
 use crate::choice::{About, Parameter, Range, Value, Values};
-use crate::{Error, Memory, Real};
+use crate::error::Error;
+use crate::memory::Memory;
+use forgetting_kernels::Real;
 
 const SENSITIVITY: Parameter = Parameter::real(
     "sensitivity",
@@ -83,7 +85,11 @@ impl<M: Memory> Rate<M> for UnityZone<M> {
 #[cfg(test)]
 mod tests {
     use super::{Limits, UnityZone};
-    use crate::{Equal, Estimator, Exponential, Fixed, Prior};
+    use crate::covariance::Prior;
+    use crate::estimator::Estimator;
+    use crate::memory::Fixed;
+    use crate::rules::Exponential;
+    use crate::weightings::Equal;
 
     #[test]
     fn halves_the_way_for_each_unit_beyond_the_zone() {

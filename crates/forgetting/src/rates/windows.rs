@@ -1,7 +1,8 @@
 //! Two windows over the last samples, a short one inside a long one.
 
 use crate::choice::{Parameter, Range, Value, Values};
-use crate::{Error, Memory};
+use crate::error::Error;
+use crate::memory::Memory;
 
 const SHORT: Parameter = Parameter::whole(
     "short_window",

@@ -1,8 +1,10 @@
 //! Forgetting along the rows of a sample, for the rules that decompose the information matrix.
 
 use super::Step;
-use crate::{Error, Memory, Real};
+use crate::error::Error;
+use crate::memory::Memory;
 use forgetting_kernels::kernel::functions::{add_scaled, dot};
+use forgetting_kernels::Real;
 
 /// P ← P + (1 − λ)/λ · φ̄ᵀ (φ̄ R φ̄ᵀ)⁺ φ̄ over the rows of the sample; returns the rank of φ̄ R φ̄ᵀ.
 ///

@@ -1,8 +1,10 @@
 //! Consecutive blocks of parameters, for the rules that treat them apart.
 
 use crate::choice::{Parameter, Value, Values};
-use crate::{Error, Memory, Real};
+use crate::error::Error;
+use crate::memory::Memory;
 use core::ops::Range;
+use forgetting_kernels::Real;
 
 /// Blocks of consecutive parameters, in their order and without gaps.
 #[derive(Clone, Debug)]

@@ -29,8 +29,11 @@ use crate::choice::{
     About, Bounds, Constants, Guarantee, Guarantees, Input, Kind, Parameter, Range, Setting, Value,
     Values,
 };
-use crate::state::{State, Visitor};
-use crate::{Error, Factor, Memory, Real};
+use crate::memory::state::{State, Visitor};
+use crate::covariance::Factor;
+use crate::error::Error;
+use crate::memory::Memory;
+use forgetting_kernels::Real;
 use core::ops::Range as Places;
 use forgetting_kernels::kernel::{functions, layout};
 

@@ -30,8 +30,10 @@ use crate::choice::{
     About, Bounds, Constants, Guarantee, Guarantees, Input, Parameter, Range, Setting, Value,
     Values,
 };
-use crate::state::{State, Visitor};
-use crate::{Error, Memory, Real};
+use crate::memory::state::{State, Visitor};
+use crate::error::Error;
+use crate::memory::Memory;
+use forgetting_kernels::Real;
 
 const LEVEL: Parameter = Parameter::real(
     "level",

@@ -51,8 +51,11 @@ use crate::choice::{
     About, Defaults, Guarantee, Guarantees, Input, Kind, Parameter, Range, Setting, Value, Values,
 };
 use crate::rules::root::Root;
-use crate::state::{State, Visitor};
-use crate::{Error, Factor, Memory, Real};
+use crate::memory::state::{State, Visitor};
+use crate::covariance::Factor;
+use crate::error::Error;
+use crate::memory::Memory;
+use forgetting_kernels::Real;
 use core::marker::PhantomData;
 
 const RULE: Parameter = Parameter::rule("rule", "none", "how to forget between the resets");
@@ -212,7 +215,8 @@ impl<M: Memory, F: Forgetting<M>> Values for Described<'_, M, F> {
 mod tests {
     use super::*;
     use crate::testing::{covariance, forget, forget_with_errors, memory, Dense};
-    use crate::{Dynamic, Subspace};
+    use crate::memory::Dynamic;
+    use crate::rules::Subspace;
 
     type Rule = CovarianceResetting<Dynamic<f64>, Subspace<Dynamic<f64>>>;
 

@@ -1,10 +1,14 @@
 //! When to start afresh: the criteria of `covariance_resetting`.
 
 use crate::choice::{Parameter, Range, Value, Values};
+use crate::covariance::Factor;
+use crate::error::Error;
+use crate::memory::state::{is_finite, State, Visitor};
+use crate::memory::Memory;
 use crate::sample::cholesky;
-use crate::state::{is_finite, State, Visitor};
-use crate::{Error, Factor, Memory, Real, Sample};
+use crate::sample::Sample;
 use forgetting_kernels::kernel::functions::{add_scaled, dot};
+use forgetting_kernels::Real;
 
 /// Which criterion.
 pub const CRITERION: Parameter = Parameter::word(

@@ -27,8 +27,10 @@ use super::{Forgetting, Forgotten, Step};
 use crate::choice::function::{Argument, MatrixFunction};
 use crate::choice::{About, Guarantee, Guarantees, Kind, Parameter, Range, Value, Values};
 use crate::covariance::dense::check_symmetric;
-use crate::state::{State, Visitor};
-use crate::{Error, Memory, Real};
+use crate::memory::state::{State, Visitor};
+use crate::error::Error;
+use crate::memory::Memory;
+use forgetting_kernels::Real;
 #[cfg(feature = "alloc")]
 use alloc::sync::Arc;
 use core::marker::PhantomData;
@@ -237,7 +239,11 @@ impl<M: Memory> State<M::Real> for Buffers<M> {
 mod tests {
     use super::*;
     use crate::testing::{covariance, forget, memory, two_rows};
-    use crate::{Constant, Dynamic, Equal, Estimator, Prior};
+    use crate::covariance::Prior;
+    use crate::estimator::Estimator;
+    use crate::memory::Dynamic;
+    use crate::rates::Constant;
+    use crate::weightings::Equal;
 
     type Function = fn(&[f64], &[f64], &[f64], &mut [f64]) -> Result<(), Error>;
 
@@ -292,7 +298,7 @@ mod tests {
         let nothing: Function = |_, _, _, _| Ok(());
         let rule = Custom::<Dynamic<f64>, _>::new(nothing);
         let found = forget(&rule, &mut rule.start(memory(&phi, 1)), &p, &phi, 1.0);
-        let none = crate::NoForgetting::new();
+        let none = crate::rules::NoForgetting::new();
         let other = forget(&none, &mut (), &p, &phi, 1.0);
         assert_eq!(found.covariance.elements, other.covariance.elements);
     }

@@ -30,8 +30,10 @@ use crate::choice::{
     About, Guarantee, Guarantees, Input, Kind, Parameter, Range, Setting, Value, Values,
 };
 use crate::rules::root::Root;
-use crate::state::{State, Visitor};
-use crate::{Error, Memory, Real};
+use crate::memory::state::{State, Visitor};
+use crate::error::Error;
+use crate::memory::Memory;
+use forgetting_kernels::Real;
 use forgetting_kernels::kernel::functions::dot;
 use forgetting_kernels::Kernels;
 

@@ -38,8 +38,12 @@ use crate::choice::{
     About, Bounds, Constants, Guarantee, Guarantees, Input, Parameter, Range, Setting, Value,
     Values,
 };
-use crate::state::{State, Visitor};
-use crate::{Error, Factor, Memory, Real, Sample};
+use crate::memory::state::{State, Visitor};
+use crate::covariance::Factor;
+use crate::error::Error;
+use crate::memory::Memory;
+use crate::sample::Sample;
+use forgetting_kernels::Real;
 use forgetting_kernels::kernel::functions::dot;
 use forgetting_kernels::Kernels;
 
@@ -297,7 +301,7 @@ mod tests {
         assert!(outcome.regressors.distance(&(mu.sqrt() * phi.clone())) < 1e-15);
     }
 
-    use crate::Dynamic;
+    use crate::memory::Dynamic;
 
     #[test]
     fn the_weight_makes_the_ellipsoid_smallest() {

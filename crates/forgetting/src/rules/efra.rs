@@ -39,8 +39,10 @@ use crate::choice::{
     Values,
 };
 use crate::covariance::spectrum::Spectrum;
-use crate::state::{is_finite, State, Visitor};
-use crate::{Error, Memory, Real};
+use crate::memory::state::{State, Visitor, is_finite};
+use crate::error::Error;
+use crate::memory::Memory;
+use forgetting_kernels::Real;
 
 const GAIN: Parameter =
     Parameter::real("gain", 0.5, Range::FRACTION, "share of the least-squares gain that is used");

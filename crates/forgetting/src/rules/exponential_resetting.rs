@@ -27,7 +27,9 @@ use crate::choice::{
     Values,
 };
 use crate::rules::root::Root;
-use crate::{Error, Memory, Real};
+use crate::error::Error;
+use crate::memory::Memory;
+use forgetting_kernels::Real;
 
 const INFORMATION: Parameter = Parameter::elements(
     "information",

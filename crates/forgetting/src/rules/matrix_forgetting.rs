@@ -37,7 +37,9 @@ use crate::choice::{
 };
 use crate::covariance::spectrum::Spectrum;
 use crate::rules::root::Root;
-use crate::{Error, Memory, Real};
+use crate::error::Error;
+use crate::memory::Memory;
+use forgetting_kernels::Real;
 
 const INFORMATION: Parameter = Parameter::real(
     "information",
@@ -275,7 +277,7 @@ mod tests {
                 (name == "shift").then_some(Value::Real(1.0))
             }
         }
-        let memory = crate::Dynamic::<f64>::new(2, 1, 1).unwrap();
+        let memory = crate::memory::Dynamic::<f64>::new(2, 1, 1).unwrap();
         assert!(MatrixForgetting::new(0.3, 2, memory).is_err());
         assert!(MatrixForgetting::configure(&Shift, memory).is_err());
     }

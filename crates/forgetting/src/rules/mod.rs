@@ -15,8 +15,11 @@ pub use blocks::Blocks;
 
 use crate::choice::registry::registry;
 use crate::choice::{Bounds, Constants, Value, Values};
-use crate::state::State;
-use crate::{Error, Factor, Memory, Sample, Work};
+use crate::covariance::Factor;
+use crate::error::Error;
+use crate::memory::state::State;
+use crate::memory::Memory;
+use crate::sample::{Sample, Work};
 use forgetting_kernels::kernel::form::Form;
 
 /// What a rule is given at each sample.

@@ -31,8 +31,12 @@ use super::{Forgetting, Forgotten, Step};
 use crate::choice::{
     About, Guarantee, Guarantees, Input, Kind, Parameter, Range, Setting, Value, Values,
 };
-use crate::state::{is_finite, State, Visitor};
-use crate::{Error, Factor, Memory, Real, Sample};
+use crate::memory::state::{State, Visitor, is_finite};
+use crate::covariance::Factor;
+use crate::error::Error;
+use crate::memory::Memory;
+use crate::sample::Sample;
+use forgetting_kernels::Real;
 use forgetting_kernels::kernel::functions::{add_scaled, bierman, dot};
 use forgetting_kernels::kernel::layout::{length, place, set_identity};
 
@@ -321,7 +325,7 @@ mod tests {
 
     #[test]
     fn blocks_must_add_up() {
-        let memory = crate::Dynamic::<f64>::new(3, 1, 1).unwrap();
+        let memory = crate::memory::Dynamic::<f64>::new(3, 1, 1).unwrap();
         for blocks in [&[1, 1][..], &[2, 2], &[0, 3], &[4]] {
             let factors = [0.9; 2];
             assert!(Multiple::new(&factors[..blocks.len()], blocks, memory).is_err());

@@ -22,7 +22,9 @@ use super::{Forgetting, Forgotten, Step};
 use crate::choice::{
     About, Bounds, Constants, Guarantee, Guarantees, Input, Setting, Value, Values,
 };
-use crate::{Error, Memory, Real};
+use crate::error::Error;
+use crate::memory::Memory;
+use forgetting_kernels::Real;
 use core::marker::PhantomData;
 use forgetting_kernels::kernel::form::Form;
 

@@ -31,7 +31,9 @@ use super::{Forgetting, Forgotten, Step};
 use crate::choice::{
     About, Guarantee, Guarantees, Input, Parameter, Range, Setting, Value, Values,
 };
-use crate::{Error, Memory, Real};
+use crate::error::Error;
+use crate::memory::Memory;
+use forgetting_kernels::Real;
 
 const THRESHOLD: Parameter = Parameter::real(
     "threshold",

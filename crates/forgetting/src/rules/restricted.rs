@@ -33,8 +33,12 @@
 
 use super::{Forgetting, Forgotten, Step};
 use crate::choice::{About, Guarantee, Guarantees, Input, Setting, Value, Values};
-use crate::state::{is_factor, State, Visitor};
-use crate::{Error, Factor, Memory, Real, Sample, Work};
+use crate::memory::state::{State, Visitor, is_factor};
+use crate::covariance::Factor;
+use crate::error::Error;
+use crate::memory::Memory;
+use crate::sample::{Sample, Work};
+use forgetting_kernels::Real;
 use core::marker::PhantomData;
 use forgetting_kernels::kernel::functions::{add_scaled, dot};
 

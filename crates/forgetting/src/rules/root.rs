@@ -3,9 +3,11 @@
 use crate::choice::{Parameter, Value, Values};
 use crate::covariance::dense::check_symmetric;
 use crate::covariance::spectrum::make_orthogonal;
-use crate::{Error, Memory, Real};
+use crate::error::Error;
+use crate::memory::Memory;
 use forgetting_kernels::kernel::functions::{add_scaled, dot};
 use forgetting_kernels::Kernels;
+use forgetting_kernels::Real;
 
 /// How the matrix was given.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -35,7 +35,9 @@ use crate::choice::{
     Values,
 };
 use crate::rules::root::Root;
-use crate::{Error, Memory, Real};
+use crate::error::Error;
+use crate::memory::Memory;
+use forgetting_kernels::Real;
 use forgetting_kernels::kernel::functions::dot;
 
 const COVARIANCE: Parameter = Parameter::elements(
@@ -152,7 +154,7 @@ mod tests {
                 Some(Value::Matrix { rows: 2, columns: 2, elements: &|_| 1.0 })
             }
         }
-        let memory = crate::Dynamic::<f64>::new(2, 1, 1).unwrap();
+        let memory = crate::memory::Dynamic::<f64>::new(2, 1, 1).unwrap();
         let refused = Stabilised::configure(&Singular, memory).unwrap_err();
         assert!(matches!(refused, Error::Indefinite { parameter: "covariance", .. }));
     }

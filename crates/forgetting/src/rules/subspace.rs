@@ -31,7 +31,9 @@ use crate::choice::{
     About, Bounds, Constants, Guarantee, Guarantees, Input, Parameter, Range, Setting, Value,
     Values,
 };
-use crate::{Error, Memory, Real};
+use crate::error::Error;
+use crate::memory::Memory;
+use forgetting_kernels::Real;
 use forgetting_kernels::kernel::form::{DeadZone, Form};
 
 const THRESHOLD: Parameter = Parameter::real(

@@ -40,7 +40,9 @@ use crate::choice::{
     About, Guarantee, Guarantees, Input, Parameter, Range, Setting, Value, Values,
 };
 use crate::covariance::spectrum::Spectrum;
-use crate::{Error, Memory, Real};
+use crate::error::Error;
+use crate::memory::Memory;
+use forgetting_kernels::Real;
 
 const THRESHOLD: Parameter = Parameter::real(
     "threshold",
@@ -212,7 +214,7 @@ mod tests {
     use super::*;
     use crate::testing::{covariance, forget, memory, Dense};
 
-    fn rule() -> VariableDirection<crate::Dynamic<f64>> {
+    fn rule() -> VariableDirection<crate::memory::Dynamic<f64>> {
         VariableDirection::new(1e-3).unwrap()
     }
 

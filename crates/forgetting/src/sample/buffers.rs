@@ -1,6 +1,6 @@
 //! Buffers that every update writes anew, made once so that no update allocates.
 
-use crate::Memory;
+use crate::memory::Memory;
 
 /// Buffers for rules to use freely.
 #[derive(Clone, Debug)]

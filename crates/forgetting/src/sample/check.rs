@@ -1,8 +1,10 @@
 //! Checks a sample as it comes in: whatever is wrong with it is found here, before anything changes.
 
 use super::SampleBuffers;
-use crate::{Error, Memory, Real};
+use crate::error::Error;
+use crate::memory::Memory;
 use forgetting_kernels::kernel::functions::{arrive, dot};
+use forgetting_kernels::Real;
 
 impl<M: Memory> SampleBuffers<M> {
     /// Checks the sample and stores y − φθ and φ, not yet whitened; returns ‖φ‖².

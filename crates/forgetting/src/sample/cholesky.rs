@@ -1,6 +1,6 @@
 //! The Cholesky factorization of a small dense matrix.
 
-use crate::Error;
+use crate::error::Error;
 use forgetting_kernels::kernel::functions::dot;
 use forgetting_kernels::Kernels;
 

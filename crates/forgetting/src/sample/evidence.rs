@@ -1,7 +1,9 @@
 //! What a rate, a weighting or a gate may judge a sample by, before it is used.
 
 use super::Sample;
-use crate::{Factor, Memory, Real};
+use crate::covariance::Factor;
+use crate::memory::Memory;
+use forgetting_kernels::Real;
 
 /// What a rate, a weighting or a gate is shown of a sample.
 ///

@@ -1,8 +1,10 @@
 //! Measure and correct: R₊ = R̄ + φᵀΓ⁻¹φ and θ₊ = θ + R₊⁻¹φᵀΓ⁻¹(y − φθ).
 
 use super::Sample;
-use crate::{Factor, Memory, Real};
+use crate::covariance::Factor;
+use crate::memory::Memory;
 use forgetting_kernels::kernel::functions::{add_scaled, dot};
+use forgetting_kernels::Real;
 
 /// tr φ̄Pφ̄ᵀ
 #[inline]

@@ -13,8 +13,9 @@ mod orthogonalize;
 mod skip;
 mod update;
 
-use crate::{Memory, Real};
+use crate::memory::Memory;
 use forgetting_kernels::kernel::functions::dot;
+use forgetting_kernels::Real;
 
 pub use answer::Answer;
 pub(crate) use buffers::SampleBuffers;

@@ -2,8 +2,10 @@
 
 use super::{cholesky, Sample};
 use crate::covariance::dense::check_symmetric;
-use crate::{Error, Memory, Real};
+use crate::error::Error;
+use crate::memory::Memory;
 use forgetting_kernels::kernel::functions::add_scaled;
+use forgetting_kernels::Real;
 
 /// The noise covariance Γ of one sample.
 #[derive(Clone, Copy, Debug)]

@@ -1,8 +1,9 @@
 //! Rows made orthogonal: the singular value decomposition of a sample of several rows.
 
 use super::Sample;
-use crate::{Memory, Real};
+use crate::memory::Memory;
 use forgetting_kernels::kernel::functions::dot;
+use forgetting_kernels::Real;
 
 impl<M: Memory> Sample<'_, M> {
     /// Rotates the rows until they are orthogonal (one-sided Jacobi): with the compact singular

@@ -1,7 +1,8 @@
 //! What an update reports of its sample.
 
 use super::{Answer, Skip};
-use crate::{Error, Real};
+use crate::error::Error;
+use forgetting_kernels::Real;
 
 /// What an update reports of its sample.
 #[derive(Clone, Copy, Debug)]

@@ -17,20 +17,23 @@
 //! Version 1 had no gate: it is read as open. Its monitor held other numbers: a new one starts.
 
 use crate::choice::{Value, Values};
+use crate::covariance::Prior;
+use crate::error::Error;
+use crate::estimator::Estimator;
 use crate::gates::{AnyGate, Gate, Open};
+use crate::memory::state::{State, Visitor};
+use crate::memory::{Dynamic, Memory};
 use crate::rates::{AnyRate, Rate};
 use crate::rules::{Forgetting, Rule};
-use crate::state::{State, Visitor};
 use crate::weightings::{AnyWeighting, Weighting};
-use crate::{Dynamic, Error, Estimator, Memory, Prior, Real};
 use alloc::{boxed::Box, string::String, vec::Vec};
 use forgetting_kernels::Kernels;
+use forgetting_kernels::Real;
 
 mod read;
 mod write;
 
 pub use crate::estimator::AnyEstimator;
-pub(crate) use write::choice as write_choice;
 
 /// The version of the format that is written, and the latest that is read.
 pub const VERSION: u8 = 2;

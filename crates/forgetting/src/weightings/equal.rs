@@ -17,7 +17,9 @@
 use super::Weighting;
 use crate::choice::{About, Value, Values};
 use crate::sample::Evidence;
-use crate::{Error, Memory, Real};
+use crate::error::Error;
+use crate::memory::Memory;
+use forgetting_kernels::Real;
 use core::marker::PhantomData;
 
 /// The registry entry.

@@ -28,7 +28,9 @@
 use super::Weighting;
 use crate::choice::{About, Parameter, Range, Value, Values};
 use crate::sample::Evidence;
-use crate::{Error, Memory, Real};
+use crate::error::Error;
+use crate::memory::Memory;
+use forgetting_kernels::Real;
 
 const THRESHOLD: Parameter = Parameter::real(
     "threshold",
@@ -83,7 +85,12 @@ impl<M: Memory> Weighting<M> for Huber<M> {
 #[cfg(test)]
 mod tests {
     use super::Huber;
-    use crate::{Constant, Dynamic, Estimator, Fixed, NoForgetting, Noise, Prior};
+    use crate::covariance::Prior;
+    use crate::estimator::Estimator;
+    use crate::memory::{Dynamic, Fixed};
+    use crate::rates::Constant;
+    use crate::rules::NoForgetting;
+    use crate::sample::Noise;
 
     /// w = 2/4: P₊ = 1/(1 + w), θ₊ = P₊ w 4.
     #[test]

@@ -4,8 +4,9 @@
 
 use crate::choice::registry::registry;
 use crate::choice::{Value, Values};
+use crate::error::Error;
+use crate::memory::Memory;
 use crate::sample::{Evidence, Needs};
-use crate::{Error, Memory};
 
 /// A weighting of samples by their innovation.
 pub trait Weighting<M: Memory>: Clone + core::fmt::Debug + Send + Sync {

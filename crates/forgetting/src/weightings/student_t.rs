@@ -25,7 +25,9 @@
 use super::Weighting;
 use crate::choice::{About, Parameter, Range, Value, Values};
 use crate::sample::Evidence;
-use crate::{Error, Memory, Real};
+use crate::error::Error;
+use crate::memory::Memory;
+use forgetting_kernels::Real;
 
 const DEGREES: Parameter = Parameter::real(
     "degrees",
@@ -78,7 +80,11 @@ impl<M: Memory> Weighting<M> for StudentT<M> {
 #[cfg(test)]
 mod tests {
     use super::{StudentT, Weighting};
-    use crate::{Constant, Estimator, Fixed, NoForgetting, Prior};
+    use crate::covariance::Prior;
+    use crate::estimator::Estimator;
+    use crate::memory::Fixed;
+    use crate::rates::Constant;
+    use crate::rules::NoForgetting;
 
     /// ν = 4, r = 4: w = 5/20, P₊ = 1/(1 + w), θ₊ = P₊ w 4; r = ½: w = 1, not 5/4.25.
     #[test]

@@ -11,7 +11,7 @@ macro_rules! any {
         $crate::choice::registry::any_type! { $axis $Any $Trait $entries }
         $crate::choice::registry::any_state! { $state $Trait $entries }
 
-        impl<M: $crate::Memory> $Trait<M> for $Any<M> {
+        impl<M: $crate::memory::Memory> $Trait<M> for $Any<M> {
             $($also)*
             $crate::choice::registry::described! { $axis $Trait $state $entries }
             $(
@@ -33,11 +33,11 @@ macro_rules! any_type {
         #[doc = concat!("Any ", $axis, " of the registry, chosen by name at run time.")]
         #[derive(Clone, Debug)]
         #[allow(missing_docs, reason = "each variant is the choice of that name")]
-        pub enum $Any<M: $crate::Memory> {
+        pub enum $Any<M: $crate::memory::Memory> {
             $($($(#[$only])* $Choice($Choice<M>),)*)*
         }
 
-        impl<M: $crate::Memory> $Any<M> {
+        impl<M: $crate::memory::Memory> $Any<M> {
             #[doc = concat!("The ", $axis, " called `name`, with these parameter values.")]
             ///
             /// # Errors
@@ -47,13 +47,13 @@ macro_rules! any_type {
                 name: &str,
                 values: &dyn $crate::choice::Values,
                 memory: M,
-            ) -> Result<Self, $crate::Error> {
+            ) -> Result<Self, $crate::error::Error> {
                 match name {
                     $($($(#[$only])* stringify!($module) => {
                         $module::ABOUT.check_rows(memory.rows())?;
                         <$Choice<M> as $Trait<M>>::configure(values, memory).map(Self::$Choice)
                     })*)*
-                    _ => Err($crate::Error::Unknown { parameter: $axis }),
+                    _ => Err($crate::error::Error::Unknown { parameter: $axis }),
                 }
             }
 
@@ -81,15 +81,15 @@ macro_rules! any_state {
         /// The state of any of them.
         #[derive(Clone, Debug)]
         #[allow(missing_docs, reason = "each variant is the state of the choice of that name")]
-        pub enum $State<M: $crate::Memory> {
+        pub enum $State<M: $crate::memory::Memory> {
             $($($(#[$only])* $Choice(<$Choice<M> as $Trait<M>>::State),)*)*
         }
 
-        impl<M: $crate::Memory> $crate::state::State<M::Real> for $State<M> {
-            fn visit(&mut self, visitor: &mut dyn $crate::state::Visitor<M::Real>) {
+        impl<M: $crate::memory::Memory> $crate::memory::state::State<M::Real> for $State<M> {
+            fn visit(&mut self, visitor: &mut dyn $crate::memory::state::Visitor<M::Real>) {
                 match self {
                     $($($(#[$only])* Self::$Choice(state) => {
-                        $crate::state::State::<M::Real>::visit(state, visitor)
+                        $crate::memory::state::State::<M::Real>::visit(state, visitor)
                     })*)*
                 }
             }
@@ -97,7 +97,7 @@ macro_rules! any_state {
             fn is_sound(&self) -> bool {
                 match self {
                     $($($(#[$only])* Self::$Choice(state) => {
-                        $crate::state::State::<M::Real>::is_sound(state)
+                        $crate::memory::state::State::<M::Real>::is_sound(state)
                     })*)*
                 }
             }
@@ -111,8 +111,8 @@ macro_rules! described {
         $axis:literal $Trait:ident $state:tt
         [$({$($(#[$only:meta])* $module:ident :: $Choice:ident,)*})*]
     ) => {
-        fn configure(_: &dyn $crate::choice::Values, _: M) -> Result<Self, $crate::Error> {
-            Err($crate::Error::Missing { parameter: $axis })
+        fn configure(_: &dyn $crate::choice::Values, _: M) -> Result<Self, $crate::error::Error> {
+            Err($crate::error::Error::Missing { parameter: $axis })
         }
 
         fn describe(&self, each: &mut dyn FnMut(&'static str, $crate::choice::Value<'_>)) {

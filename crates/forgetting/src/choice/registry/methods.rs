@@ -1,6 +1,6 @@
 //! The methods of the type that is any entry: each asks the entry that it is.
 
-use crate::Error;
+use crate::error::Error;
 
 /// A method that passes on to the choice that it is, with the state of that choice if it has one.
 macro_rules! pass_on {

@@ -1,8 +1,10 @@
 //! Changes of P along eigenvectors.
 
 use super::Spectrum;
-use crate::{Factor, Memory, Real};
+use crate::covariance::Factor;
+use crate::memory::Memory;
 use forgetting_kernels::kernel::functions::add_scaled;
+use forgetting_kernels::Real;
 
 impl<M: Memory> Spectrum<M> {
     /// P ← P + `weight`·v_i v_iᵀ with `weight` ≥ 0; uses n numbers `direction`.

@@ -3,10 +3,11 @@
 
 use super::jacobi::rotation;
 use super::{rotate, two_rows, Spectrum};
-use crate::{Memory, Real};
+use crate::memory::Memory;
 use core::ops::Range;
 use forgetting_kernels::kernel::functions::{add_scaled, dot};
 use forgetting_kernels::Kernels;
+use forgetting_kernels::Real;
 
 const SWEEPS: usize = 40;
 

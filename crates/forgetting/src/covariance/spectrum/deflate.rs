@@ -1,8 +1,9 @@
 //! What a rank-one change leaves alone is left out of the secular equation.
 
 use super::{rotate, two_rows, Spectrum};
-use crate::{Memory, Real};
+use crate::memory::Memory;
 use forgetting_kernels::kernel::functions::dot;
+use forgetting_kernels::Real;
 
 impl<M: Memory> Spectrum<M> {
     /// Leaves the components of `row` in `components`, 0 where it changes nothing, and those

@@ -1,9 +1,11 @@
 //! The spectrum from the factor, by Jacobi rotations.
 
 use super::{rotate, two_rows, Spectrum};
-use crate::{Factor, Memory, Real};
+use crate::covariance::Factor;
+use crate::memory::Memory;
 use forgetting_kernels::kernel::functions::{add_scaled, dot, multiply_transposed};
 use forgetting_kernels::Kernels;
+use forgetting_kernels::Real;
 
 const SWEEPS: usize = 40;
 

@@ -12,11 +12,13 @@ mod jacobi;
 
 pub(crate) use jacobi::make_orthogonal;
 
-use crate::state::{is_finite, State, Visitor};
-use crate::{Factor, Memory, Real};
+use crate::covariance::Factor;
+use crate::memory::state::{is_finite, State, Visitor};
+use crate::memory::Memory;
 use forgetting_kernels::kernel::eigen::{RankOneUpdate, Rows};
 use forgetting_kernels::kernel::functions::dot;
 use forgetting_kernels::Kernels;
+use forgetting_kernels::Real;
 
 /// R = P⁻¹ = Σ_i r_i v_i v_iᵀ with r ascending.
 #[derive(Clone, Debug)]
@@ -211,7 +213,8 @@ fn rotate<T: Real>(x: &mut [T], y: &mut [T], cosine: T, sine: T) {
 #[cfg(test)]
 mod tests {
     use super::Spectrum;
-    use crate::{Dynamic, Factor};
+    use crate::covariance::Factor;
+    use crate::memory::Dynamic;
     use alloc::vec::Vec;
 
     /// Numbers in (−1, 1) without a pattern.

@@ -1,7 +1,7 @@
 //! What the next sample needs, as numbers that can be saved and restored.
 
-use crate::Real;
 use core::fmt::Debug;
+use forgetting_kernels::Real;
 
 /// Reads or writes the numbers of a state, one after the other, in a fixed order.
 pub trait Visitor<T: Real> {

@@ -1,0 +1,98 @@
+//! A vector that needs no particular instructions.
+
+use crate::number::lane::Lane;
+use crate::number::Real;
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+/// `L` numbers, 8 or 16, as an array: what the compiler makes of it.
+#[derive(Clone, Copy, Debug)]
+pub struct Lanes<T, const L: usize>(pub(crate) [T; L]);
+
+macro_rules! lane_by_lane {
+    ($($Trait:ident $method:ident;)*) => {$(
+        impl<T: Real, const L: usize> $Trait for Lanes<T, L> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(mut self, other: Self) -> Self {
+                for lane in 0..L {
+                    self.0[lane] = self.0[lane].$method(other.0[lane]);
+                }
+                self
+            }
+        }
+    )*};
+}
+lane_by_lane! { Add add; Sub sub; Mul mul; Div div; }
+
+/// What is done to each lane `i`, written where the closure of a `map` would be: that is compiled
+/// without the vector instructions.
+macro_rules! each {
+    ($L:ident, $i:ident: $first:expr, $of_each:expr) => {{
+        let mut lanes = [$first; $L];
+        for $i in 0..$L {
+            lanes[$i] = $of_each;
+        }
+        lanes
+    }};
+}
+
+impl<T: Real, const L: usize> Neg for Lanes<T, L> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(each!(L, i: T::ZERO, -self.0[i]))
+    }
+}
+
+impl<T: Real, const L: usize> Lane<T> for Lanes<T, L> {
+    type Mask = [bool; L];
+
+    #[inline(always)]
+    fn splat(x: T) -> Self {
+        Self([x; L])
+    }
+    #[inline(always)]
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        Self(each!(L, i: T::ZERO, Real::mul_add(self.0[i], factor.0[i], term.0[i])))
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(each!(L, i: T::ZERO, Real::max(self.0[i], other.0[i])))
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self(each!(L, i: T::ZERO, Real::min(self.0[i], other.0[i])))
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(each!(L, i: T::ZERO, Real::abs(self.0[i])))
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(each!(L, i: T::ZERO, Real::sqrt(self.0[i])))
+    }
+    #[inline(always)]
+    fn at_most(self, limit: Self) -> [bool; L] {
+        each!(L, i: false, self.0[i] <= limit.0[i])
+    }
+    #[inline(always)]
+    fn less_than(self, limit: Self) -> [bool; L] {
+        each!(L, i: false, self.0[i] < limit.0[i])
+    }
+    #[inline(always)]
+    fn both(a: [bool; L], b: [bool; L]) -> [bool; L] {
+        each!(L, i: false, a[i] & b[i])
+    }
+    #[inline(always)]
+    fn all(mask: [bool; L]) -> bool {
+        let mut all = true;
+        for lane in mask {
+            all &= lane;
+        }
+        all
+    }
+    #[inline(always)]
+    fn select(mask: [bool; L], yes: Self, no: Self) -> Self {
+        Self(each!(L, i: T::ZERO, T::select(mask[i], yes.0[i], no.0[i])))
+    }
+}
