@@ -15,15 +15,15 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check -q
 PROFILE := fast
 DEVELOP = . $(BIN)/activate && maturin develop --quiet
 # Two records inside wheels. Their own dependencies clash with ours and are not needed to read them, so
-# they lie in a folder of their own.
+# they lie in a folder of their own, which only what reads them is shown.
 RECORDS := pvanalytics==0.2.2 sweat==0.25.0
-export PYTHONPATH := $(CURDIR)/$(VENV)/records
+WITH_RECORDS = PYTHONPATH=$(CURDIR)/$(VENV)/records
 
 .PHONY: demo test lint rust python build bench bench-full docs stubs clean
 
 demo: $(VENV)/records
 	$(DEVELOP) --profile $(PROFILE) --extras cli
-	$(BIN)/forgetting demo all --output demo
+	$(WITH_RECORDS) $(BIN)/forgetting demo all --output demo
 
 test: lint rust python
 
@@ -39,7 +39,7 @@ rust:
 	cargo test --workspace --exclude forgetting-py --profile $(PROFILE) --quiet
 
 python: build
-	$(BIN)/pytest -n auto
+	$(WITH_RECORDS) $(BIN)/pytest -n auto
 
 build: $(VENV)/ready
 	$(DEVELOP) --profile $(PROFILE)
@@ -62,7 +62,7 @@ stubs: build
 
 docs: build
 	$(PIP) install sphinx myst-parser sphinx-gallery furo
-	$(BIN)/sphinx-build -W -b html docs docs/_build
+	$(WITH_RECORDS) $(BIN)/sphinx-build -W -b html docs docs/_build
 
 # what pip cannot install, the report names
 PEERS = sed -e 's/ *\#.*//' -e '/^$$/d' $(1) | while read peer; do \
@@ -71,12 +71,12 @@ PEERS = sed -e 's/ *\#.*//' -e '/^$$/d' $(1) | while read peer; do \
 bench: $(VENV)/ready
 	$(DEVELOP) --release
 	$(call PEERS,benchmarks/requirements.txt)
-	$(BIN)/python -m benchmarks --quick
+	$(WITH_RECORDS) $(BIN)/python -m benchmarks --quick
 
 bench-full: $(VENV)/ready
 	$(DEVELOP) --release
 	$(call PEERS,benchmarks/requirements.txt benchmarks/requirements-full.txt)
-	$(BIN)/python -m benchmarks
+	$(WITH_RECORDS) $(BIN)/python -m benchmarks
 
 clean:
 	cargo clean
