@@ -408,7 +408,8 @@ class Directional(Rule):
     - Cost: O(n²), one row only. State: P alone.
     - As printed, (58) still learns from regressors below the threshold; they would be accumulated
       and never forgotten, without bound. Here they are skipped altogether, which is what the two
-      bounds rest on. `subspace` is the same for several rows.
+      bounds rest on.
+    - Use it to compare with work that used it, with one row; `subspace` is the same for several.
 
     Reference: L. Cao, H. M. Schwartz, *A directional forgetting algorithm based on the
     decomposition of the information matrix*, Automatica 36, 2000.
@@ -841,6 +842,7 @@ class MatrixForgetting(Rule):
     - N = 1 with choice 1 is `exponential_resetting` with α I, bit for bit. For N ≥ 3, what lies
       near α is hardly touched: the return to α is slower than any exponential, and information
       well below α may jump beyond it. β > 0 bounds the jump.
+    - Use it to reproduce work that used it; else `exponential_resetting`.
 
     Reference: A. Goel, A. L. Bruce, D. S. Bernstein, *Recursive least squares with
     variable-direction forgetting*, IEEE Control Systems Magazine 40(4), 2020, sidebar "Toward
@@ -1121,7 +1123,8 @@ class RandomWalk(Rule):
     - P bounded below (A3): if Q > 0 and φ is bounded.
     - Cost: O((p + r) n²), r the rank of Q; O(n³) for a full one. State: P alone.
     - Q is per sample and in units of P: the variance by which θ moves, over the variance of the
-      measurement noise (Γ). Use it when that ratio is known; the estimate is then the optimal one.
+      measurement noise (Γ).
+    - Use it when that ratio is known: the estimate is then the optimal one.
 
     Reference: R. E. Kalman, *A new approach to linear filtering and prediction problems*, Journal
     of Basic Engineering 82, 1960; as forgetting, GF-RLS, Theorem 1.
@@ -1337,9 +1340,10 @@ class Subspace(Rule):
     - P bounded below (A3): if λ_k ≤ λ_max < 1 and φ̄φ̄ᵀ ≤ β I:
       R_k ≤ max(β/(1 − λ_max), λ_max(R₀)) I.
     - Cost: O(p n²), twice that of `exponential`. State: P alone.
-    - The default rule. `threshold` is the smallest singular value of the whitened φ that counts
-      as information, in units of φ̄; set it above the noise of the regressors. Smaller ones are
-      neither forgotten nor accumulated.
+    - `threshold` is the smallest singular value of the whitened φ that counts as information, in
+      units of φ̄; set it above the noise of the regressors. Smaller ones are neither forgotten nor
+      accumulated.
+    - Use it first: it is the default rule.
 
     Reference: B. Lai, D. S. Bernstein, *SIFt-RLS: subspace of information forgetting recursive
     least squares*, arXiv 2404.10844, 2024; for one row, L. Cao, H. M. Schwartz, *A directional

@@ -1,7 +1,6 @@
 //! The registries as Python dictionaries.
 
-use crate::choice::read;
-use crate::choice::write_value;
+use crate::choice::{read, write_value};
 use crate::errors::raise;
 use forgetting::choice::{About, Axis, Claim, Constants, Guarantees, Kind, Parameter, Setting};
 use forgetting::gates::Answer;

@@ -17,7 +17,8 @@
 //! - Cost: O(n²), one row only. State: P alone.
 //! - As printed, (58) still learns from regressors below the threshold; they would be accumulated
 //!   and never forgotten, without bound. Here they are skipped altogether, which is what the two
-//!   bounds rest on. `subspace` is the same for several rows.
+//!   bounds rest on.
+//! - Use it to compare with work that used it, with one row; `subspace` is the same for several.
 //!
 //! Reference: L. Cao, H. M. Schwartz, *A directional forgetting algorithm based on the
 //! decomposition of the information matrix*, Automatica 36, 2000.

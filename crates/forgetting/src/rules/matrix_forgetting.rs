@@ -23,6 +23,7 @@
 //! - N = 1 with choice 1 is `exponential_resetting` with α I, bit for bit. For N ≥ 3, what lies
 //!   near α is hardly touched: the return to α is slower than any exponential, and information
 //!   well below α may jump beyond it. β > 0 bounds the jump.
+//! - Use it to reproduce work that used it; else `exponential_resetting`.
 //!
 //! Reference: A. Goel, A. L. Bruce, D. S. Bernstein, *Recursive least squares with
 //! variable-direction forgetting*, IEEE Control Systems Magazine 40(4), 2020, sidebar "Toward

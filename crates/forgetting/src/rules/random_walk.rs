@@ -16,7 +16,8 @@
 //! - P bounded below (A3): if Q > 0 and φ is bounded.
 //! - Cost: O((p + r) n²), r the rank of Q; O(n³) for a full one. State: P alone.
 //! - Q is per sample and in units of P: the variance by which θ moves, over the variance of the
-//!   measurement noise (Γ). Use it when that ratio is known; the estimate is then the optimal one.
+//!   measurement noise (Γ).
+//! - Use it when that ratio is known: the estimate is then the optimal one.
 //!
 //! Reference: R. E. Kalman, *A new approach to linear filtering and prediction problems*, Journal
 //! of Basic Engineering 82, 1960; as forgetting, GF-RLS, Theorem 1.

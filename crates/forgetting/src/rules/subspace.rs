@@ -17,9 +17,10 @@
 //! - P bounded below (A3): if λ_k ≤ λ_max < 1 and φ̄φ̄ᵀ ≤ β I:
 //!   R_k ≤ max(β/(1 − λ_max), λ_max(R₀)) I.
 //! - Cost: O(p n²), twice that of `exponential`. State: P alone.
-//! - The default rule. `threshold` is the smallest singular value of the whitened φ that counts
-//!   as information, in units of φ̄; set it above the noise of the regressors. Smaller ones are
-//!   neither forgotten nor accumulated.
+//! - `threshold` is the smallest singular value of the whitened φ that counts as information, in
+//!   units of φ̄; set it above the noise of the regressors. Smaller ones are neither forgotten nor
+//!   accumulated.
+//! - Use it first: it is the default rule.
 //!
 //! Reference: B. Lai, D. S. Bernstein, *SIFt-RLS: subspace of information forgetting recursive
 //! least squares*, arXiv 2404.10844, 2024; for one row, L. Cao, H. M. Schwartz, *A directional
