@@ -85,12 +85,13 @@ fn few<T: Real, const N: usize>(
 ) -> Option<Measured<T>> {
     let (f, d) = (f.first_chunk::<N>()?, diagonal.first_chunk_mut::<N>()?);
     let (mut small, least) = (Small { u: Kept::of::<N>(columns), d: *d }, T::FLOOR);
+    let bounds = &mut Bounds { tight: **bound, kept: bound };
     let (gain, forgot) = match form {
         Form::Scale { growth } => {
-            scale::<T, T, _, N, true>(&mut small, bound, growth, (f, squares), least)?
+            scale::<T, T, _, N, true>(&mut small, bounds, growth, (f, squares), least)?
         }
         Form::Along { weight, .. } => {
-            along::<T, T, _, N, true>(&mut small, bound, weight, (f, squares), least)?
+            along::<T, T, _, N, true>(&mut small, bounds, weight, (f, squares), least)?
         }
     };
     *d = small.d;
@@ -107,14 +108,12 @@ fn few<T: Real, const N: usize>(
 #[inline(always)]
 pub fn scale<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const NEAR: bool>(
     small: &mut Small<A, N, U>,
-    bound: &mut T,
+    bounds: &mut Bounds<'_, T>,
     growth: T,
     (f, squares): (&[A; N], T),
     least: T,
 ) -> Option<(Gain<A, N>, bool)> {
-    let far = |trace| NEAR || far_before(least, trace, squares);
-    let trace = *bound * growth;
-    (trace < T::CEILING && far(trace)).then(|| *bound = trace)?;
+    bounds.grow::<NEAR>((growth, T::ZERO), (least, squares))?;
     let gain = small.scale_and_measure::<T, NEAR>(A::splat(growth), f);
     Some((gain, growth > T::ONE))
 }
@@ -123,25 +122,49 @@ pub fn scale<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const NEAR: bool
 #[inline(always)]
 pub fn along<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const NEAR: bool>(
     small: &mut Small<A, N, U>,
-    bound: &mut T,
+    bounds: &mut Bounds<'_, T>,
     weight: T,
     (f, squares): (&[A; N], T),
     least: T,
 ) -> Option<(Gain<A, N>, bool)> {
-    let far = |trace| NEAR || far_before(least, trace, squares);
     let (one, zero) = (A::splat(T::ONE), A::splat(T::ZERO));
     let mut along = small.along(f);
     let information = along.information.get();
     let c = weight / information;
     if !adds(c) {
-        far(*bound).then_some(())?;
+        bounds.grow::<NEAR>((T::ONE, T::ZERO), (least, squares))?;
         (along.z, along.q) = ([zero; N], [zero; N]);
         return Some((small.add_and_measure::<T, NEAR>((zero, one), &along, f), false));
     }
-    let trace = *bound + c * squares;
-    (trace < T::CEILING && far(trace)).then(|| *bound = trace)?;
+    bounds.grow::<NEAR>((T::ONE, c * squares), (least, squares))?;
     let added = (A::splat(c), A::splat(information / weight));
     Some((small.add_and_measure::<T, NEAR>(added, &along, f), true))
+}
+
+/// Two numbers that are at least the trace of P.
+pub struct Bounds<'a, T> {
+    /// the one that the factor keeps, by which there is room for P or not
+    pub kept: &'a mut T,
+    /// one that may be much smaller, by which D stays far from its floor or not
+    pub tight: T,
+}
+
+impl<T: Real> Bounds<'_, T> {
+    /// Both follow P as it grows, if there is room and, unless `NEAR`, no element of D, at least
+    /// `least`, may come near its floor when a regressor with this ‖f‖² is measured.
+    #[inline(always)]
+    fn grow<const NEAR: bool>(
+        &mut self,
+        (growth, added): (T, T),
+        (least, squares): (T, T),
+    ) -> Option<()> {
+        let (kept, tight) = (*self.kept * growth + added, self.tight * growth + added);
+        if !(kept < T::CEILING && (NEAR || far_before(least, tight, squares))) {
+            return None;
+        }
+        (*self.kept, self.tight) = (kept, tight);
+        Some(())
+    }
 }
 
 /// Whether c·fᵀf is to be added: not for λ = 1 or f = 0, nor for more information than the number

@@ -2,6 +2,7 @@
 
 mod advance;
 mod against_dense;
+mod long;
 
 use proptest::prelude::*;
 

@@ -75,21 +75,10 @@ impl<'a, T: Real, A: Abreast<T>, const N: usize> State<'a, T, A, N> {
     }
 }
 
-impl<T: Real, A: Abreast<T>, const N: usize> Trace<A> for State<'_, T, A, N> {
-    /// Summed as the trace of a single factor is.
+impl<T: Real, A: Abreast<T>, const N: usize> Trace<A> for Small<A, N, State<'_, T, A, N>> {
     #[inline(always)]
     fn trace(&self) -> A {
-        let (zero, one) = (A::splat(T::ZERO), A::splat(T::ONE));
-        let mut trace = zero;
-        for c in 0..N {
-            let mut squares = zero;
-            for i in 0..c {
-                let u = self.get(c, i);
-                squares = u.mul_add(u, squares);
-            }
-            trace = trace + self.read(Self::LAYOUT.diagonal() + c) * (one + squares);
-        }
-        trace
+        Small::trace::<T>(self)
     }
 }
 
@@ -150,7 +139,7 @@ fn scale<T: Real, A: Abreast<T>, const N: usize>(
     let layout = const { Layout::new(N) };
     let bound = small.u.read(layout.bound());
     let room = (growth, A::splat(T::ZERO));
-    let (bound, used) = make_room(bound, room, accepted, &small.u);
+    let (bound, used) = make_room(bound, room, accepted, &small);
     let before = small.u.copy_unless_all(used);
     let gain = small.scale_and_measure::<T, true>(growth, f);
     let outcome = correct(small, &gain, (bound, error), (before.as_ref(), used));
@@ -187,7 +176,7 @@ fn along<T: Real, A: Abreast<T>, const N: usize>(
     }
     let bound = small.u.read(layout.bound());
     let room = (one, c * squares);
-    let (bound, used) = make_room(bound, room, informed, &small.u);
+    let (bound, used) = make_room(bound, room, informed, &small);
     small.u.read_again();
     let before = small.u.copy_unless_all(used);
     let silent = match before {

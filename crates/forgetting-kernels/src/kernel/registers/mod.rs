@@ -213,6 +213,27 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
     }
 }
 
+impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
+    /// The trace of P.
+    #[inline(always)]
+    pub fn trace<T: Real>(&self) -> A
+    where
+        A: Lane<T>,
+    {
+        let (zero, one) = (A::splat(T::ZERO), A::splat(T::ONE));
+        let mut trace = zero;
+        for c in 0..N {
+            let mut squares = zero;
+            for i in 0..c {
+                let u = self.u.get(c, i);
+                squares = u.mul_add(u, squares);
+            }
+            trace = trace + self.d[c] * (one + squares);
+        }
+        trace
+    }
+}
+
 impl<A: Copy, const N: usize, U> Small<A, N, U> {
     /// The smallest element of D.
     #[inline(always)]

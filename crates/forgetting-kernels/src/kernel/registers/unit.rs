@@ -1,6 +1,7 @@
 //! Where U is while a sample is taken.
 
 use crate::kernel::layout::{length, place};
+use crate::number::lane::One;
 use crate::number::Real;
 use core::hint::black_box;
 
@@ -38,17 +39,17 @@ impl<'a, T: Real> Kept<'a, T> {
     }
 }
 
-impl<T: Real, const N: usize> Unit<T, N> for Kept<'_, T> {
+impl<T: Real, A: One<T>, const N: usize> Unit<A, N> for Kept<'_, T> {
     #[inline(always)]
-    fn get(&self, c: usize, i: usize) -> T {
-        self.0[place::<T>(i, c)]
+    fn get(&self, c: usize, i: usize) -> A {
+        A::splat(self.0[place::<T>(i, c)])
     }
     #[inline(always)]
-    fn set(&mut self, c: usize, i: usize, u: T) {
-        self.0[place::<T>(i, c)] = u;
+    fn set(&mut self, c: usize, i: usize, u: A) {
+        self.0[place::<T>(i, c)] = u.get();
     }
     #[inline(always)]
-    fn last_pass(&mut self, _: &[T; N]) {
+    fn last_pass(&mut self, _: &[A; N]) {
         *self = Self::of::<N>(black_box(core::mem::take(&mut self.0)));
     }
 }

@@ -3,7 +3,7 @@
 #![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
 
 use super::super::bierman::largest;
-use super::super::measure::{along, scale};
+use super::super::measure::{along, scale, Bounds};
 use super::super::outcome::Outcome;
 use super::super::registers::{Kept, Small, Unit};
 use super::super::vectors::few_products;
@@ -34,7 +34,9 @@ impl<T: Real, const N: usize, const ALONG: bool> Kernel<T> for Few<'_, '_, T, N,
         match N {
             // there is less arithmetic than waiting for it
             0..=4 => in_registers::<T, V::One, N, ALONG>(self.0),
-            _ => in_place::<T, N, ALONG>(self.0),
+            // more of it than of numbers: the compiler would lose time with pairs of them
+            _ if ALONG => in_place::<T, V::One, N, ALONG>(self.0),
+            _ => in_place::<T, T, N, ALONG>(self.0),
         }
         .unwrap_or(0)
     }
@@ -53,12 +55,14 @@ fn in_registers<T: Real, A: One<T>, const N: usize, const ALONG: bool>(
 
 /// With U where it is kept.
 #[inline(always)]
-fn in_place<T: Real, const N: usize, const ALONG: bool>(task: &mut Steps<'_, T>) -> Option<usize> {
-    let d = *task.place.diagonal.first_chunk()?;
+fn in_place<T: Real, A: One<T>, const N: usize, const ALONG: bool>(
+    task: &mut Steps<'_, T>,
+) -> Option<usize> {
+    let d = A::splat_each(task.place.diagonal.first_chunk()?);
     let u = Kept::of::<N>(core::mem::take(&mut task.place.columns));
     let mut small = Small { u, d };
-    let taken = all::<T, T, _, N, ALONG>(task, &mut small)?;
-    *task.place.diagonal.first_chunk_mut()? = small.d;
+    let taken = all::<T, A, _, N, ALONG>(task, &mut small)?;
+    *task.place.diagonal.first_chunk_mut()? = A::get_each(&small.d);
     Some(taken)
 }
 
@@ -69,25 +73,30 @@ fn all<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const ALONG: bool>(
 ) -> Option<usize> {
     let mut theta = A::splat_each(task.theta.first_chunk::<N>()?);
     let (most, mut taken) = (task.told.len().min(task.y.len()), 0);
+    let (mut trace, mut tight) = (*task.place.bound, false);
     while taken < most {
-        match some::<T, A, U, N, ALONG>(task, taken, small, &mut theta) {
-            0 => break,
-            took => taken += took,
+        match take::<T, A, U, N, ALONG>(task, taken, small, (&mut theta, &mut trace)) {
+            0 if tight => break,
+            // perhaps only because the bound is far above the trace
+            0 => (trace, tight) = (small.trace().get(), true),
+            took => (taken, tight) = (taken + took, false),
         }
     }
     *task.theta.first_chunk_mut()? = A::get_each(&theta);
     Some(taken)
 }
 
-/// Samples from `at` on; none only if the next is none to take here.
+/// Takes samples from `at` on; returns how many. 0 means that `trace`, which is at least that of P, is
+/// too large, or that the next one must be taken elsewhere.
 #[inline(always)]
-fn some<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const ALONG: bool>(
+fn take<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const ALONG: bool>(
     task: &mut Steps<'_, T>,
     at: usize,
     small: &mut Small<A, N, U>,
-    theta: &mut [A; N],
+    (theta, trace): (&mut [A; N], &mut T),
 ) -> usize {
     let Steps { place, form, phi, y, told, thetas, .. } = task;
+    let mut bounds = Bounds { kept: &mut *place.bound, tight: *trace };
     let mut after = thetas.get_mut(at * N..).unwrap_or_default().as_chunks_mut::<N>().0.iter_mut();
     let samples = phi[at * N..].as_chunks::<N>().0.iter().zip(&y[at..]).zip(&mut told[at..]);
     let (mut least, mut taken) = (small.least(), 0);
@@ -102,16 +111,16 @@ fn some<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const ALONG: bool>(
             *told = left_out(small, error, &f);
         } else {
             let sample = (&f, squares);
-            let taken = match *form {
+            let gain = match *form {
                 Form::Scale { growth } if !ALONG => {
-                    scale::<T, A, U, N, false>(small, place.bound, growth, sample, least)
+                    scale::<T, A, U, N, false>(small, &mut bounds, growth, sample, least)
                 }
                 Form::Along { weight, .. } if ALONG => {
-                    along::<T, A, U, N, false>(small, place.bound, weight, sample, least)
+                    along::<T, A, U, N, false>(small, &mut bounds, weight, sample, least)
                 }
                 _ => None,
             };
-            let Some((gain, forgot)) = taken else { break };
+            let Some((gain, forgot)) = gain else { break };
             // D becomes no less than D / a
             least *= gain.inverse_a.get();
             let step = A::splat(error) * gain.inverse_a;
@@ -126,6 +135,7 @@ fn some<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const ALONG: bool>(
         }
         taken += 1;
     }
+    *trace = bounds.tight;
     taken
 }
 
