@@ -20,7 +20,7 @@ fn stops<T: Kernels>(n: usize) -> usize {
     let y: Vec<T> = (0..SAMPLES).map(|k| number(k + 7)).collect();
     let (mut told, mut k, mut stops) = ([Outcome::default(); 64], 0, 0);
     while k < SAMPLES {
-        let taken = estimator.advance(&phi[k * n..], &y[k..], &mut told, &mut []);
+        let taken = estimator.update_many(&phi[k * n..], &y[k..], &mut told, &mut []);
         if taken == 0 {
             estimator.update(&phi[k * n..(k + 1) * n], &y[k..=k]).unwrap();
         }
