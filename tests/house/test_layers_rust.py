@@ -32,6 +32,27 @@ LAYERS: dict[str, tuple[str, ...]] = {
         "fleet",  # many of them
         "saved",  # all of it as bytes
     ),
+    "forgetting-runtime": (
+        "error",  # what is refused, and how it is said
+        "number",  # numbers and arrays as they come and go; the number types
+        "update",  # one sample
+        "function",  # functions of the user's
+        "choice",  # choices by name
+        "settings",  # what an estimator is made from; defaults
+        "configure",  # from settings to an estimator
+        "estimator bounds window",
+        "fleet",
+    ),
+    # what only Python needs
+    "forgetting-py": (
+        "errors",
+        "arrays",
+        "callable",
+        "choice",
+        "settings registry run update window",
+        "rls",
+        "fleet",
+    ),
 }
 """Lowest first. A room may import those below it, and itself; rooms of one line are level."""
 

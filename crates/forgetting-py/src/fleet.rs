@@ -1,11 +1,10 @@
 //! The class `Fleet`.
 
 use crate::arrays::{optional, output, Input};
-use crate::choice::{read, read_forgetting_factor, read_gate};
 use crate::errors::{invalid, raise};
 use crate::rls::Rls;
-use crate::settings::{names, read_optional, view, write_description};
-use forgetting_runtime::{check_shape, size, threads, NumberType, Settings};
+use crate::settings::{names, read_choices, read_optional, view, write_description};
+use forgetting_runtime::{check_shape, threads, NumberType, Settings};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -82,20 +81,16 @@ impl Fleet {
         threads: Option<i64>,
     ) -> PyResult<Self> {
         let number_type = NumberType::named(dtype).map_err(raise)?;
-        let parameters = size("parameters", parameters).map_err(raise)?;
         let threads = forgetting_runtime::threads(threads).map_err(raise)?;
         let factor = read_optional("forgetting_factor", forgetting_factor, number_type)?;
         let covariance = read_optional("initial_covariance", initial_covariance, number_type)?;
         let theta = read_optional("initial_theta", initial_theta, number_type)?;
+        let choices = read_choices(parameters, rule, weighting, gate)?;
         let settings = Settings {
             number_type,
-            rule: read("rule", rule)?,
-            forgetting_factor: read_forgetting_factor(rule)?,
-            weighting: read("weighting", weighting)?,
-            gate: read_gate(gate)?,
             initial_covariance: view("initial_covariance", &covariance)?,
             initial_theta: view("initial_theta", &theta)?,
-            ..Settings::new(parameters)
+            ..choices
         };
         let factor = view("forgetting_factor", &factor)?;
         let mut fleet = forgetting_runtime::Fleet::new(count, &settings, factor).map_err(raise)?;

@@ -1,10 +1,9 @@
 //! The class `RLS`.
 
 use crate::arrays::{output, output_or_float, Input};
-use crate::choice::{read, read_forgetting_factor, read_gate};
 use crate::errors::raise;
 use crate::run::Run;
-use crate::settings::{names, read_optional, view, write_description, write_health};
+use crate::settings::{names, read_choices, read_optional, view, write_description, write_health};
 use crate::update::Update;
 use forgetting_runtime::{size, Estimator, Missing, NumberType, Settings};
 use pyo3::prelude::*;
@@ -75,24 +74,18 @@ impl Rls {
         dtype: &str,
         monitor: bool,
     ) -> PyResult<Self> {
-        let parameters = size("parameters", parameters).map_err(raise)?;
-        let rows = size("rows", rows).map_err(raise)?;
-        let targets = size("targets", targets).map_err(raise)?;
         let number_type = NumberType::named(dtype).map_err(raise)?;
         let covariance = read_optional("initial_covariance", initial_covariance, number_type)?;
         let theta = read_optional("initial_theta", initial_theta, number_type)?;
+        let choices = read_choices(parameters, rule, weighting, gate)?;
         let settings = Settings {
-            parameters,
-            rows,
-            targets,
+            rows: size("rows", rows).map_err(raise)?,
+            targets: size("targets", targets).map_err(raise)?,
             number_type,
-            rule: read("rule", rule)?,
-            forgetting_factor: read_forgetting_factor(rule)?,
-            weighting: read("weighting", weighting)?,
-            gate: read_gate(gate)?,
             initial_covariance: view("initial_covariance", &covariance)?,
             initial_theta: view("initial_theta", &theta)?,
             monitor,
+            ..choices
         };
         Ok(Self { estimator: Estimator::new(&settings).map_err(raise)? })
     }
@@ -243,10 +236,8 @@ impl Rls {
         y: &Bound<'_, PyAny>,
         gamma: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Update> {
-        let (number_type, copy) = (self.estimator.number_type(), self.estimator.calls_function());
-        let read = |name, values| Input::read_or_copy(name, values, number_type, copy);
-        let (phi, y) = (read("phi", phi)?, read("y", y)?);
-        let gamma = gamma.map(|gamma| read("gamma", gamma)).transpose()?;
+        let (phi, y) = (self.input("phi", phi)?, self.input("y", y)?);
+        let gamma = gamma.map(|gamma| self.input("gamma", gamma)).transpose()?;
         let gamma = gamma.as_ref().map(Input::numbers).transpose()?;
         self.estimator.update(phi.numbers()?, y.numbers()?, gamma).map(Update).map_err(raise)
     }
@@ -287,10 +278,8 @@ impl Rls {
         missing: &str,
     ) -> PyResult<Run> {
         let missing = Missing::named(missing).map_err(raise)?;
-        let (number_type, copy) = (self.estimator.number_type(), self.estimator.calls_function());
-        let read = |name, values| Input::read_or_copy(name, values, number_type, copy);
-        let (phi, y) = (read("phi", phi)?, read("y", y)?);
-        let gamma = gamma.map(|gamma| read("gamma", gamma)).transpose()?;
+        let (phi, y) = (self.input("phi", phi)?, self.input("y", y)?);
+        let gamma = gamma.map(|gamma| self.input("gamma", gamma)).transpose()?;
         let record = (phi.view("phi")?, y.view("y")?, view("gamma", &gamma)?);
         let outputs = names(&outputs);
         let run = py.detach(|| self.estimator.run(record, missing, outputs.as_deref()));
@@ -333,5 +322,18 @@ impl Rls {
         let (n, p, m) = (self.parameters(), self.rows(), self.targets());
         let samples = self.samples();
         Ok(format!("RLS({n}, rule={rule}, rows={p}, targets={m}) after {samples} samples"))
+    }
+}
+
+impl Rls {
+    /// Numbers for a sample or a record: copied if Python code runs while they are read.
+    #[inline(always)]
+    fn input<'a, 'py>(
+        &self,
+        name: &str,
+        values: &'a Bound<'py, PyAny>,
+    ) -> PyResult<Input<'a, 'py>> {
+        let (number_type, copy) = (self.estimator.number_type(), self.estimator.calls_function());
+        Input::read_or_copy(name, values, number_type, copy)
     }
 }

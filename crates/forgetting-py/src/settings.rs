@@ -1,10 +1,31 @@
 //! What `RLS` and `Fleet` are given alike, and what both show.
 
 use crate::arrays::{output, Input};
-use crate::choice::write;
-use forgetting_runtime::{Description, Health, NumberType, View};
+use crate::choice::{read, read_forgetting_factor, read_gate, write};
+use crate::errors::raise;
+use forgetting_runtime::{size, Description, Health, NumberType, Settings, View};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+
+/// The settings that choose a rule, a weighting and a gate, for n = `parameters`.
+///
+/// # Errors
+/// `InvalidInput` names what is neither a name nor an object of its kind.
+pub fn read_choices(
+    parameters: i64,
+    rule: Option<&Bound<'_, PyAny>>,
+    weighting: Option<&Bound<'_, PyAny>>,
+    gate: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Settings<'static>> {
+    let parameters = size("parameters", parameters).map_err(raise)?;
+    Ok(Settings {
+        rule: read("rule", rule)?,
+        forgetting_factor: read_forgetting_factor(rule)?,
+        weighting: read("weighting", weighting)?,
+        gate: read_gate(gate)?,
+        ..Settings::new(parameters)
+    })
+}
 
 /// Numbers that may be left out.
 ///

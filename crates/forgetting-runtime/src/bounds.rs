@@ -1,6 +1,8 @@
 //! The bounds of P that a rule states.
 
-use crate::{configure, Choice, Error};
+use crate::choice::Choice;
+use crate::configure;
+use crate::error::Error;
 use forgetting::choice::Constants;
 use forgetting::{Dynamic, Forgetting};
 

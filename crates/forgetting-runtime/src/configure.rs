@@ -1,15 +1,15 @@
 //! An estimator from its settings.
 
+use crate::choice::Choice;
+use crate::error::Error;
 use crate::function::{for_gate, for_rate, for_rule};
-use crate::number::Number;
+use crate::number::{Number, View};
 use crate::settings::{Settings, INITIAL_COVARIANCE};
-use crate::{Choice, Error, View};
 use forgetting::gates::{AnyGate, GATES};
 use forgetting::rates::{AnyRate, RATES};
 use forgetting::rules::{Rule, RULES};
-use forgetting::saved::AnyEstimator;
 use forgetting::weightings::{AnyWeighting, WEIGHTINGS};
-use forgetting::{Dynamic, Estimator, Memory, Prior};
+use forgetting::{AnyEstimator, Dynamic, Estimator, Memory, Prior};
 
 /// The estimator that `settings` say, with `initial_covariance` and `initial_theta` in the place
 /// of those in the settings.
@@ -41,27 +41,20 @@ pub(crate) fn rule<T: Number>(
     choice: &Choice,
     memory: Dynamic<T>,
 ) -> Result<Rule<Dynamic<T>>, Error> {
-    let about = RULES.iter().find(|about| about.name == choice.name);
-    choice.make("rule", about.map(|about| about.parameters), for_rule, |name, values| {
-        Rule::named(name, values, memory)
-    })
+    choice.make(("rule", RULES), for_rule, |name, values| Rule::named(name, values, memory))
 }
 
 fn make_rate<T: Number>(choice: &Choice, memory: Dynamic<T>) -> Result<AnyRate<Dynamic<T>>, Error> {
-    let about = RATES.iter().find(|about| about.name == choice.name);
-    choice.make("rate", about.map(|about| about.parameters), for_rate::<T>, |name, values| {
-        AnyRate::named(name, values, memory)
-    })
+    choice.make(("rate", RATES), for_rate::<T>, |name, values| AnyRate::named(name, values, memory))
 }
 
 fn weighting<T: Number>(
     choice: Option<&Choice>,
     memory: Dynamic<T>,
 ) -> Result<AnyWeighting<Dynamic<T>>, Error> {
-    let choice = choice.cloned().unwrap_or_else(|| Choice::named("equal"));
-    let about = WEIGHTINGS.iter().find(|about| about.name == choice.name);
+    let equal = Choice::named("equal");
     // no weighting takes a function: it is then refused as the value of its parameter
-    choice.make("weighting", about.map(|about| about.parameters), for_rule, |name, values| {
+    choice.unwrap_or(&equal).make(("weighting", WEIGHTINGS), for_rule, |name, values| {
         AnyWeighting::named(name, values, memory)
     })
 }
@@ -70,11 +63,10 @@ fn gate<T: Number>(
     choice: Option<&Choice>,
     memory: Dynamic<T>,
 ) -> Result<AnyGate<Dynamic<T>>, Error> {
-    let choice = choice.cloned().unwrap_or_else(|| Choice::named("open"));
-    let about = GATES.iter().find(|about| about.name == choice.name);
-    choice.make("gate", about.map(|about| about.parameters), for_gate::<T>, |name, values| {
-        AnyGate::named(name, values, memory)
-    })
+    let open = Choice::named("open");
+    choice
+        .unwrap_or(&open)
+        .make(("gate", GATES), for_gate::<T>, |name, values| AnyGate::named(name, values, memory))
 }
 
 fn prior<T: Number>(

@@ -1,10 +1,10 @@
 //! Functions of the user's, written in any language, that are called in the middle of a sample.
 
 use crate::number::Number;
-use crate::Innovation;
+use crate::update::Innovation;
 use forgetting::function::{Argument, EvidenceFunction, MatrixFunction};
-use forgetting::gates::{Answer, GateFunction};
-use forgetting::{rates, Dynamic, Error};
+use forgetting::gates::GateFunction;
+use forgetting::{rates, Answer, Dynamic, Error};
 use std::any::Any;
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -69,7 +69,7 @@ impl Evidence {
     fn of<T: Number>(evidence: &forgetting::Evidence<'_, '_, Dynamic<T>>) -> Self {
         let &forgetting::Evidence { rows, targets, samples, .. } = evidence;
         Self {
-            error: Innovation::new(evidence.errors, rows, targets),
+            error: Innovation::new(evidence.errors, targets),
             squared_error: evidence.squared_error.to_f64(),
             leverage: evidence.leverage.to_f64(),
             normalized_error: evidence.normalized_error.to_f64(),

@@ -24,35 +24,27 @@
 //! ```
 #![forbid(unsafe_code)]
 
-mod array;
 mod bounds;
-mod by_type;
 mod choice;
 mod configure;
 mod error;
 mod estimator;
 mod fleet;
 mod function;
-mod health;
 mod number;
-mod record;
 mod settings;
 mod update;
 mod window;
 
-pub use array::{Array, Elements, Numbers, View};
 pub use bounds::{covariance_bounds, CovarianceBounds};
 pub use choice::{Choice, Description, Value};
 pub use error::{check_shape, Error, Kind};
-pub use estimator::Estimator;
+pub use estimator::{Estimator, Health, Missing, Run};
 pub use fleet::{Fleet, FleetUpdate, StreamHealth};
 pub use forgetting::function::Argument;
-pub use forgetting::gates::Answer;
-pub use forgetting::{Error as CoreError, Skip};
+pub use forgetting::{Answer, Error as CoreError, Skip};
 pub use function::{Evidence, Function};
-pub use health::Health;
-pub use number::NumberType;
-pub use record::{Missing, Run};
+pub use number::{Array, Elements, NumberType, Numbers, View};
 pub use settings::{size, threads, ForgettingFactor, Settings};
 pub use update::{Innovation, Update};
 pub use window::InformationWindow;

@@ -1,6 +1,8 @@
 //! What an estimator is made from, and what it is when nothing is said.
 
-use crate::{Choice, Error, NumberType, View};
+use crate::choice::Choice;
+use crate::error::Error;
+use crate::number::{NumberType, View};
 use forgetting::rules::RULES;
 use forgetting::Dynamic;
 

@@ -1,9 +1,8 @@
 //! One sample in one call.
 
-use crate::number::Number;
-use crate::{Answer, Array, Elements, Numbers, Skip};
-use forgetting::saved::AnyEstimator;
-use forgetting::{Error, Memory, Noise, Real};
+use crate::error::Error;
+use crate::number::{Array, Elements, Number, Numbers};
+use forgetting::{Answer, AnyEstimator, Memory, Noise, Real, Skip};
 
 /// One number a row and target of a sample.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,10 +11,8 @@ pub enum Innovation {
     Scalar(f64),
     /// of several
     Array {
-        /// the numbers, row by row
-        elements: Vec<f64>,
-        /// p
-        rows: usize,
+        /// the p x m numbers, row by row
+        elements: Box<[f64]>,
         /// m
         targets: usize,
     },
@@ -23,14 +20,12 @@ pub enum Innovation {
 
 impl Innovation {
     #[inline]
-    pub(crate) fn new<T: Real>(elements: &[T], rows: usize, targets: usize) -> Self {
+    pub(crate) fn new<T: Real>(elements: &[T], targets: usize) -> Self {
         match elements {
             [element] => Self::Scalar(element.to_f64()),
-            elements => Self::Array {
-                elements: elements.iter().map(|x| x.to_f64()).collect(),
-                rows,
-                targets,
-            },
+            elements => {
+                Self::Array { elements: elements.iter().map(|x| x.to_f64()).collect(), targets }
+            }
         }
     }
 
@@ -39,8 +34,10 @@ impl Innovation {
     pub fn array(&self) -> Array {
         let (elements, shape) = match self {
             Self::Scalar(element) => (vec![*element], vec![]),
-            Self::Array { elements, rows, targets: 1 } => (elements.clone(), vec![*rows]),
-            Self::Array { elements, rows, targets } => (elements.clone(), vec![*rows, *targets]),
+            Self::Array { elements, targets: 1 } => (elements.to_vec(), vec![elements.len()]),
+            Self::Array { elements, targets } => {
+                (elements.to_vec(), vec![elements.len() / targets, *targets])
+            }
         };
         Array { shape, elements: Elements::F64(elements) }
     }
@@ -70,11 +67,7 @@ pub struct Update {
 impl Update {
     /// From the core's; several rows must be whitened.
     #[inline]
-    fn new<T: Real>(
-        update: &forgetting::Update<'_, T>,
-        rows: usize,
-        targets: usize,
-    ) -> Result<Self, Error> {
+    fn new<T: Real>(update: &forgetting::Update<'_, T>, targets: usize) -> Result<Self, Error> {
         let whitened_innovation = if update.error.len() == 1 {
             let mut whitened = [T::ZERO];
             update.whiten(&mut whitened)?;
@@ -82,10 +75,10 @@ impl Update {
         } else {
             let mut whitened = vec![T::ZERO; update.error.len()];
             update.whiten(&mut whitened)?;
-            Innovation::new(&whitened, rows, targets)
+            Innovation::new(&whitened, targets)
         };
         Ok(Self {
-            error: Innovation::new(update.error, rows, targets),
+            error: Innovation::new(update.error, targets),
             whitened_innovation,
             leverage: update.leverage.to_f64(),
             forgetting_factor: update.forgetting_factor.to_f64(),
@@ -106,8 +99,7 @@ pub(crate) fn update<T: Number>(
     gamma: Option<Numbers<'_>>,
 ) -> Result<Update, Error> {
     let memory = estimator.prior().memory();
-    let (rows, targets) = (memory.rows(), memory.targets());
-    if rows > 1 {
+    if memory.rows() > 1 {
         estimator.keep_innovations(true);
     }
     let gamma = gamma.map(T::read);
@@ -117,5 +109,5 @@ pub(crate) fn update<T: Number>(
         Some(full) => Noise::Full(full),
     };
     let update = estimator.update_with_noise(&T::read(phi), &T::read(y), noise)?;
-    Update::new(&update, rows, targets)
+    Update::new(&update, memory.targets())
 }

@@ -1,7 +1,8 @@
 //! The information of the last samples.
 
-use crate::number::Number;
-use crate::{size, Array, Elements, Error, Numbers};
+use crate::error::Error;
+use crate::number::{Array, Elements, Number, Numbers};
+use crate::settings::size;
 
 /// The sum of φᵀφ over the last samples, in O(n²) a sample.
 #[derive(Clone, Debug)]

@@ -3,12 +3,12 @@
 use super::{Choice, Description, Value};
 use crate::function::original;
 use crate::number::Number;
+use forgetting::choice;
 use forgetting::gates::Gate;
-use forgetting::parameter;
 use forgetting::rates::Rate;
 use forgetting::rules::Forgetting;
-use forgetting::saved::AnyEstimator;
 use forgetting::weightings::Weighting;
+use forgetting::AnyEstimator;
 
 impl Description {
     /// What `estimator` is made of.
@@ -36,7 +36,7 @@ impl Choice {
     /// The choice of this name whose values `describe` names one by one.
     fn described<T: Number>(
         name: &str,
-        describe: impl FnOnce(&mut dyn FnMut(&str, parameter::Value<'_>)),
+        describe: impl FnOnce(&mut dyn FnMut(&str, choice::Value<'_>)),
     ) -> Self {
         let mut choice = Self::named(name);
         describe(&mut |name, value| {
@@ -49,25 +49,25 @@ impl Choice {
 
 impl Value {
     /// A value of the core's; none for a function that no interface made.
-    fn of<T: Number>(value: parameter::Value<'_>) -> Option<Self> {
+    fn of<T: Number>(value: choice::Value<'_>) -> Option<Self> {
         Some(match value {
-            parameter::Value::Real(number) => Self::Number(number),
-            parameter::Value::Word(word) => Self::Word(word.into()),
-            parameter::Value::Matrix { rows, columns, elements } => Self::Matrix {
+            choice::Value::Real(number) => Self::Number(number),
+            choice::Value::Word(word) => Self::Word(word.into()),
+            choice::Value::Matrix { rows, columns, elements } => Self::Matrix {
                 rows,
                 columns,
                 elements: (0..rows * columns).map(elements).collect(),
             },
-            parameter::Value::Choice { name, values } => {
+            choice::Value::Choice { name, values } => {
                 Self::Choice(Choice::described::<T>(name, |each| values.each(each)))
             }
-            parameter::Value::Function(function) => Self::Function(original::<T>(function)?),
+            choice::Value::Function(function) => Self::Function(original::<T>(function)?),
         })
     }
 
     /// A value of the core's that is data; none for a function.
     #[must_use]
-    pub fn of_core(value: parameter::Value<'_>) -> Option<Self> {
+    pub fn of_core(value: choice::Value<'_>) -> Option<Self> {
         Self::of::<f64>(value)
     }
 }
@@ -75,17 +75,17 @@ impl Value {
 /// Whether a function of the user's is part of `estimator`.
 pub(crate) fn has_function<T: Number>(estimator: &AnyEstimator<T>) -> bool {
     let mut found = false;
-    let mut look = |_: &'static str, value: parameter::Value<'_>| found |= is_function(value);
+    let mut look = |_: &'static str, value: choice::Value<'_>| found |= is_function(value);
     estimator.rule().describe(&mut look);
     estimator.rate().describe(&mut look);
     estimator.gate().describe(&mut look);
     found
 }
 
-fn is_function(value: parameter::Value<'_>) -> bool {
+fn is_function(value: choice::Value<'_>) -> bool {
     match value {
-        parameter::Value::Function(_) => true,
-        parameter::Value::Choice { values, .. } => {
+        choice::Value::Function(_) => true,
+        choice::Value::Choice { values, .. } => {
             let mut found = false;
             values.each(&mut |_, value| found |= is_function(value));
             found

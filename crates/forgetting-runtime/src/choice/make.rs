@@ -1,9 +1,9 @@
 //! From a choice to what is chosen.
 
 use super::{Choice, Value};
-use crate::function::CoreFunction;
-use crate::{Error, Function};
-use forgetting::parameter::{self, Parameter, Values};
+use crate::error::Error;
+use crate::function::{CoreFunction, Function};
+use forgetting::choice::{self, About, Values};
 use forgetting::rules::RULES;
 use std::sync::Arc;
 
@@ -11,15 +11,15 @@ use std::sync::Arc;
 pub(crate) type Adapt = fn(&Arc<dyn Function>) -> CoreFunction;
 
 impl Choice {
-    /// Refuses a parameter that is not among `allowed`, then makes what is chosen.
+    /// Refuses a parameter that the entry of this name among `entries` does not have, then makes
+    /// what is chosen.
     pub(crate) fn make<T>(
         &self,
-        what: &str,
-        allowed: Option<&[Parameter]>,
+        (what, entries): (&str, &[About]),
         adapt: Adapt,
         make: impl FnOnce(&str, &dyn Values) -> Result<T, forgetting::Error>,
     ) -> Result<T, Error> {
-        self.check_names(what, allowed)?;
+        self.check_names(what, entries)?;
         make(&self.name, &Prepared::of(self, adapt)).map_err(|error| match error {
             forgetting::Error::Unknown { .. } => {
                 Error::Name { what: what.into(), name: self.name.clone() }
@@ -28,8 +28,10 @@ impl Choice {
         })
     }
 
-    /// Refuses a parameter that is not among `allowed`, here and in a rule that is a parameter.
-    fn check_names(&self, what: &str, allowed: Option<&[Parameter]>) -> Result<(), Error> {
+    /// Refuses a parameter that the entry does not have, here and in a rule that is a parameter.
+    fn check_names(&self, what: &str, entries: &[About]) -> Result<(), Error> {
+        let entry = entries.iter().find(|about| about.name == self.name);
+        let allowed = entry.map(|about| about.parameters);
         for (name, value) in &self.parameters {
             if let Some(allowed) = allowed.filter(|all| !all.iter().any(|p| p.name == name)) {
                 let names: Vec<_> = allowed.iter().map(|p| p.name).collect();
@@ -40,8 +42,7 @@ impl Choice {
                 });
             }
             if let Value::Choice(inner) = value {
-                let about = RULES.iter().find(|about| about.name == inner.name);
-                inner.check_names(name, about.map(|about| about.parameters))?;
+                inner.check_names(name, RULES)?;
             }
         }
         Ok(())
@@ -80,15 +81,15 @@ impl<'a> Prepared<'a> {
 }
 
 impl Values for Prepared<'_> {
-    fn get(&self, name: &str) -> Option<parameter::Value<'_>> {
+    fn get(&self, name: &str) -> Option<choice::Value<'_>> {
         self.0.iter().find(|(own, _)| *own == name).map(|(_, value)| match value {
-            PreparedValue::Number(number) => parameter::Value::Real(*number),
-            PreparedValue::Word(word) => parameter::Value::Word(word),
+            PreparedValue::Number(number) => choice::Value::Real(*number),
+            PreparedValue::Word(word) => choice::Value::Word(word),
             PreparedValue::Matrix { rows, columns, elements } => {
-                parameter::Value::Matrix { rows: *rows, columns: *columns, elements }
+                choice::Value::Matrix { rows: *rows, columns: *columns, elements }
             }
-            PreparedValue::Choice { name, values } => parameter::Value::Choice { name, values },
-            PreparedValue::Function(function) => parameter::Value::Function(&**function),
+            PreparedValue::Choice { name, values } => choice::Value::Choice { name, values },
+            PreparedValue::Function(function) => choice::Value::Function(&**function),
         })
     }
 }

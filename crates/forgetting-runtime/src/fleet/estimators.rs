@@ -2,8 +2,7 @@
 
 use crate::number::Number;
 use forgetting::fleet::{Outputs, Samples, REFUSED};
-use forgetting::saved::AnyEstimator;
-use forgetting::{Error, Skip};
+use forgetting::{AnyEstimator, Error, Skip};
 
 /// How much more a number of the state costs here than in a block of lanes.
 pub const EFFORT: usize = 8;

@@ -1,6 +1,6 @@
 //! How far the estimates of a fleet can be trusted.
 
-use crate::Array;
+use crate::number::Array;
 
 /// Numbers that bound P of each stream, and what else its health is made of.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,11 +2,12 @@
 
 use super::streams::{like, Streams};
 use crate::choice::has_function;
-use crate::number::Number;
-use crate::{configure, Error, Settings, View};
+use crate::configure;
+use crate::error::Error;
+use crate::number::{Number, View};
+use crate::settings::Settings;
 use forgetting::rates::Rate;
-use forgetting::saved::AnyEstimator;
-use forgetting::{Dynamic, Memory, Prior};
+use forgetting::{AnyEstimator, Dynamic, Memory, Prior};
 use std::borrow::Cow;
 
 /// A number of streams.

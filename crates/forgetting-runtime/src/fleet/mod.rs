@@ -10,12 +10,14 @@ mod update;
 pub use health::StreamHealth;
 pub use update::FleetUpdate;
 
-use crate::by_type::{both, each, make, map, ByType, Family};
-use crate::estimator::{covariance, saved_type};
-use crate::number::Number;
-use crate::{Array, Description, Elements, Error, Estimator, NumberType, Settings, View};
+use crate::choice::Description;
+use crate::error::Error;
+use crate::estimator::{covariance, saved_type, Estimator};
+use crate::number::{both, each, make, map, ByType, Family, Number};
+use crate::number::{Array, Elements, NumberType, View};
+use crate::settings::Settings;
 use forgetting::fleet::check_kind;
-use forgetting::saved::AnyEstimator;
+use forgetting::AnyEstimator;
 use make::check_functions;
 use streams::Streams;
 

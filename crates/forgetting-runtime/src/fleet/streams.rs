@@ -1,13 +1,12 @@
 //! The streams of a fleet: in blocks of lanes where the rule has a form for it, else an estimator
 //! each.
 
+use super::health::StreamHealth;
 use super::{estimators, threads};
-use crate::number::Number;
-use crate::{Array, Elements, StreamHealth};
+use crate::number::{Array, Elements, Number};
 use forgetting::fleet::{check_kind, Fleet, Outputs, Part, Samples};
 use forgetting::rates::{AnyRate, Constant, Rate};
-use forgetting::saved::AnyEstimator;
-use forgetting::{Dynamic, Error, Estimator, Memory, Prior};
+use forgetting::{AnyEstimator, Dynamic, Error, Estimator, Memory, Prior};
 
 /// Streams of the same sizes, rule, rate and weighting.
 #[derive(Clone)]

@@ -1,8 +1,8 @@
 //! A sample for every stream of a fleet.
 
 use super::streams::Streams;
-use crate::number::Number;
-use crate::{check_shape, Array, Elements, Error, View};
+use crate::error::{check_shape, Error};
+use crate::number::{Array, Elements, Number, View};
 use forgetting::fleet::{Outputs, Samples};
 use std::borrow::Cow;
 

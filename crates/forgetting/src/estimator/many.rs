@@ -19,6 +19,13 @@ where
     W: Weighting<M>,
     M: Memory,
 {
+    /// Whether [`Estimator::update_many`] takes samples at all: a sample is forgotten, measured and
+    /// corrected, and nothing else is to be done with it.
+    #[inline]
+    pub fn takes_many(&self) -> bool {
+        self.design.steady.is_some() && !self.buffers.diagnostics.keeps_prior()
+    }
+
     /// Takes samples of n numbers `phi` and one number `y` each, in one call; writes what became of
     /// each to `outcomes` and returns how many it took, at most as many as there are outcomes.
     ///

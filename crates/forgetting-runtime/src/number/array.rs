@@ -1,6 +1,7 @@
 //! Numbers as an interface passes and receives them.
 
-use crate::{Error, NumberType};
+use super::NumberType;
+use crate::error::Error;
 
 /// Numbers of an interface, of either type. Those of another type than the estimator's are
 /// converted, which takes a copy.

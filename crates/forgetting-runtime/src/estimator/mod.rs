@@ -1,13 +1,23 @@
 //! An estimator of any type.
 
-use crate::by_type::{each, make, ByType, Family};
-use crate::choice::has_function;
-use crate::number::Number;
-use crate::{configure, record, update};
-use crate::{Array, Description, Error, Health, Missing, NumberType, Numbers, Run, Settings};
-use crate::{Update, View};
-use forgetting::saved::{number_type, AnyEstimator};
-use forgetting::{Memory, Real};
+mod accessors;
+mod health;
+mod record;
+
+pub(crate) use accessors::covariance;
+pub use health::Health;
+pub use record::{Missing, Run};
+
+use crate::choice::{has_function, Description};
+use crate::configure;
+use crate::error::Error;
+use crate::number::{each, make, ByType, Family, Number};
+use crate::number::{Array, NumberType, Numbers, View};
+use crate::settings::Settings;
+use crate::update::{update, Update};
+use accessors::{factor, predict, theta};
+use forgetting::saved::number_type;
+use forgetting::{AnyEstimator, Memory, Real};
 
 /// Estimators, with the number type left open.
 pub(crate) struct Estimators;
@@ -85,7 +95,7 @@ impl Estimator {
         y: Numbers<'_>,
         gamma: Option<Numbers<'_>>,
     ) -> Result<Update, Error> {
-        Ok(each!(&mut self.typed, e => update::update(e, phi, y, gamma))?)
+        each!(&mut self.typed, e => update(e, phi, y, gamma))
     }
 
     /// Takes a whole record of T samples: `phi` (T, n) or (T, p, n), `y` (T, p, m) with sizes of
@@ -190,59 +200,4 @@ pub(crate) fn saved_type(state: &[u8]) -> Result<NumberType, Error> {
         8 => Ok(NumberType::F64),
         _ => Ok(NumberType::F32),
     }
-}
-
-fn theta<T: Number>(estimator: &AnyEstimator<T>) -> Array {
-    let memory = estimator.prior().memory();
-    let (n, m) = (memory.parameters(), memory.targets());
-    if m == 1 {
-        return T::array(estimator.theta().to_vec(), &[n]);
-    }
-    let mut theta = Vec::with_capacity(n * m);
-    by_parameter(estimator, &mut theta);
-    T::array(theta, &[n, m])
-}
-
-/// Appends θ, the m numbers of the first parameter first.
-pub(crate) fn by_parameter<T: Number>(estimator: &AnyEstimator<T>, numbers: &mut Vec<T>) {
-    let memory = estimator.prior().memory();
-    let (n, m) = (memory.parameters(), memory.targets());
-    let theta = estimator.theta();
-    numbers.extend((0..n).flat_map(|i| (0..m).map(move |t| theta[t * n + i])));
-}
-
-pub(crate) fn covariance<T: Number>(estimator: &AnyEstimator<T>) -> Array {
-    let n = estimator.factor().parameters();
-    let mut dense = vec![T::ZERO; n * n];
-    estimator.factor().reconstruct(&mut dense);
-    T::array(dense, &[n, n])
-}
-
-fn factor<T: Number>(estimator: &AnyEstimator<T>) -> (Array, Array) {
-    let factor = estimator.factor();
-    let n = factor.parameters();
-    let mut dense = vec![T::ZERO; n * n];
-    for j in 0..n {
-        dense[j * n + j] = T::ONE;
-        for i in 0..j {
-            dense[i * n + j] = factor.unit(i, j);
-        }
-    }
-    (T::array(dense, &[n, n]), T::array(factor.diagonal_elements().to_vec(), &[n]))
-}
-
-fn predict<T: Number>(estimator: &AnyEstimator<T>, phi: View<'_>) -> Result<Array, Error> {
-    let memory = estimator.prior().memory();
-    let (n, m) = (memory.parameters(), memory.targets());
-    let Some((_, regressors)) = phi.shape().split_last().filter(|(last, _)| **last == n) else {
-        return Err(Error::shape("phi", phi.shape(), format!("(..., {n})")));
-    };
-    let phi = T::read(phi.numbers());
-    let mut prediction = vec![T::ZERO; phi.len() / n * m];
-    estimator.predict(&phi, &mut prediction)?;
-    let mut shape = regressors.to_vec();
-    if m > 1 {
-        shape.push(m);
-    }
-    Ok(Array { shape, elements: T::elements(prediction) })
 }

@@ -2,12 +2,10 @@
 
 use super::run::Run;
 use super::shapes::Sizes;
-use crate::estimator::by_parameter;
-use crate::number::Number;
-use crate::{Array, Elements, Error};
-use forgetting::gates::Answer;
-use forgetting::saved::AnyEstimator;
-use forgetting::{Dynamic, Factor, Memory, Outcome, Skip, Update};
+use crate::error::Error;
+use crate::estimator::accessors::by_parameter;
+use crate::number::{Array, Elements, Number};
+use forgetting::{Answer, AnyEstimator, Dynamic, Factor, Memory, Outcome, Skip, Update};
 
 /// The outputs that were asked for, each as long as there were samples.
 pub(super) struct Outputs<T> {

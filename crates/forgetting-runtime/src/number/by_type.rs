@@ -1,7 +1,7 @@
 //! One value for each number type: the only place that lists the types that are compiled.
 
-use crate::number::Number;
-use crate::NumberType;
+use super::real::Number;
+use super::NumberType;
 use forgetting_cpu::Fused;
 
 /// Plain arithmetic, for a machine without fused multiply-add. Every aarch64 has it: nothing but
@@ -28,7 +28,7 @@ pub(crate) enum ByType<F: Family> {
 /// Evaluates an expression for the value of whichever number type it is.
 macro_rules! each {
     ($by_type:expr, $value:ident => $expression:expr) => {{
-        use $crate::by_type::ByType;
+        use $crate::number::ByType;
         match $by_type {
             ByType::F64($value) => $expression,
             ByType::F32($value) => $expression,
@@ -41,7 +41,7 @@ macro_rules! each {
 /// Evaluates an expression for two values of the same number type; nothing if their types differ.
 macro_rules! both {
     ($one:expr, $other:expr; $x:ident, $y:ident => $expression:expr) => {{
-        use $crate::by_type::ByType;
+        use $crate::number::ByType;
         match ($one, $other) {
             (ByType::F64($x), ByType::F64($y)) => Some($expression),
             (ByType::F32($x), ByType::F32($y)) => Some($expression),
@@ -57,8 +57,8 @@ macro_rules! both {
 macro_rules! make {
     ($number_type:expr, $T:ident => $expression:expr) => {{
         use forgetting_cpu::Fused;
-        use $crate::by_type::{has_fused, ByType, Plain};
-        use $crate::NumberType;
+        use $crate::number::NumberType;
+        use $crate::number::{has_fused, ByType, Plain};
         match ($number_type, has_fused()) {
             (NumberType::F64, false) => {
                 type $T = Plain<f64>;
@@ -83,7 +83,7 @@ macro_rules! make {
 /// The values of one family as those of another.
 macro_rules! map {
     ($by_type:expr, $value:ident => $expression:expr) => {{
-        use $crate::by_type::ByType;
+        use $crate::number::ByType;
         match $by_type {
             ByType::F64($value) => ByType::F64(Box::new($expression)),
             ByType::F32($value) => ByType::F32(Box::new($expression)),

@@ -1,42 +1,10 @@
-//! The number types, and how an interface's numbers become theirs.
+//! How an interface's numbers become those that are computed with.
 
-use crate::{Array, Elements, Error, Numbers};
+use super::array::{Array, Elements, Numbers};
 use bytemuck::{TransparentWrapper, TransparentWrapperAlloc};
 use forgetting::{Kernels, Real};
 use forgetting_cpu::Fused;
 use std::borrow::Cow;
-
-/// The type of an estimator's numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NumberType {
-    /// 64 bits
-    F64,
-    /// 32 bits
-    F32,
-}
-
-impl NumberType {
-    /// The name: `float64` or `float32`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::F64 => "float64",
-            Self::F32 => "float32",
-        }
-    }
-
-    /// The type of this name.
-    ///
-    /// # Errors
-    /// [`Error::Word`] names `dtype`.
-    pub fn named(name: &str) -> Result<Self, Error> {
-        match name {
-            "float64" => Ok(Self::F64),
-            "float32" => Ok(Self::F32),
-            _ => Err(Error::word("dtype", name, &[Self::F64.name(), Self::F32.name()])),
-        }
-    }
-}
 
 /// A number type to compute with: one of [`NumberType`] in the arithmetic of a machine.
 pub(crate) trait Number: Kernels {

@@ -1,7 +1,7 @@
 //! The shapes of a record.
 
-use super::RecordNoise;
-use crate::{Error, View};
+use crate::error::Error;
+use crate::number::View;
 use forgetting::Memory;
 
 /// Sizes of a record.
@@ -38,25 +38,4 @@ fn check(name: &str, shape: &[usize], samples: usize, sample: [usize; 2]) -> Res
     }
     let [p, n] = sample;
     Err(Error::shape(name, shape, format!("({samples}, {p}, {n}) or less ones")))
-}
-
-/// Γ by its shape.
-///
-/// # Errors
-/// [`Error::Shape`] names `gamma`.
-pub(super) fn read_noise<'a, T: Copy>(
-    shape: &[usize],
-    gamma: &'a [T],
-    Sizes { samples, rows: p, .. }: Sizes,
-) -> Result<RecordNoise<'a, T>, Error> {
-    match *shape {
-        [] => Ok(RecordNoise::Scalar(gamma[0])),
-        [t] if t == samples => Ok(RecordNoise::Scalars(gamma)),
-        [a, b] if (a, b) == (p, p) => Ok(RecordNoise::Full(gamma)),
-        [t, a, b] if (t, a, b) == (samples, p, p) => Ok(RecordNoise::Fulls(gamma)),
-        _ => {
-            let expected = format!("(), ({p}, {p}), ({samples},) or ({samples}, {p}, {p})");
-            Err(Error::shape("gamma", shape, expected))
-        }
-    }
 }

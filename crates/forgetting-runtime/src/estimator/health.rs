@@ -1,8 +1,7 @@
 //! What the watch over an estimator has found.
 
-use crate::number::Number;
-use crate::{Array, Elements};
-use forgetting::saved::AnyEstimator;
+use crate::number::{Array, Elements, Number};
+use forgetting::AnyEstimator;
 
 /// What the watch has found; see [`forgetting::Health`].
 #[derive(Clone, Debug, PartialEq)]

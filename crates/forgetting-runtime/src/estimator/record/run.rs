@@ -1,8 +1,8 @@
 //! The results of a record.
 
-use crate::Array;
+use crate::number::Array;
 #[cfg(doc)]
-use forgetting::{gates::Answer, Skip, Update};
+use forgetting::{Answer, Skip, Update};
 
 /// Results of a record of T samples.
 ///

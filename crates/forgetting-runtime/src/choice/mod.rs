@@ -5,7 +5,8 @@ mod make;
 
 pub(crate) use describe::has_function;
 
-use crate::{Error, Function};
+use crate::error::Error;
+use crate::function::Function;
 use std::sync::Arc;
 
 /// A name of a registry and the values of its parameters; those left out take their defaults.

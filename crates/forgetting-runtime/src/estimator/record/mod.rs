@@ -1,0 +1,135 @@
+//! A whole record in one call, all or nothing.
+
+mod noise;
+mod outputs;
+mod run;
+mod shapes;
+
+pub use run::Run;
+
+use crate::error::Error;
+use crate::number::{Number, View};
+use forgetting::{AnyEstimator, Outcome};
+use noise::RecordNoise;
+use outputs::Outputs;
+use shapes::Sizes;
+
+/// What is done with a sample that has a NaN.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Missing {
+    /// the record is refused
+    Error,
+    /// the sample is left out
+    Skip,
+}
+
+impl Missing {
+    /// The one that `error` or `skip` names.
+    ///
+    /// # Errors
+    /// [`Error::Word`] names `missing`.
+    pub fn named(word: &str) -> Result<Self, Error> {
+        match word {
+            "error" => Ok(Self::Error),
+            "skip" => Ok(Self::Skip),
+            _ => Err(Error::word("missing", word, &["error", "skip"])),
+        }
+    }
+}
+
+/// The samples of a record.
+struct Record<'a, T> {
+    sizes: Sizes,
+    phi: &'a [T],
+    y: &'a [T],
+    noise: RecordNoise<'a, T>,
+    missing: Missing,
+}
+
+/// Updates `estimator` with every sample; on an error it is as it was before the first.
+pub(super) fn run<T: Number>(
+    estimator: &mut AnyEstimator<T>,
+    (phi, y, gamma): (View<'_>, View<'_>, Option<View<'_>>),
+    missing: Missing,
+    outputs: &[&str],
+) -> Result<Run, Error> {
+    let sizes = Sizes::of(estimator.prior().memory(), &phi, &y)?;
+    let mut outputs = Outputs::<T>::named(outputs, sizes)?;
+    let (phi, y) = (T::read(phi.numbers()), T::read(y.numbers()));
+    let gammas = gamma.map(|gamma| T::read(gamma.numbers()));
+    let noise = match (&gamma, &gammas) {
+        (Some(gamma), Some(gammas)) => RecordNoise::read(gamma.shape(), gammas, sizes)?,
+        _ => RecordNoise::Unit,
+    };
+    let record = Record { sizes, phi: &phi, y: &y, noise, missing };
+    outputs.prepare(estimator);
+    let taken = estimator.all_or_nothing(|estimator| take(estimator, &record, &mut outputs));
+    estimator.keep_innovations(false);
+    estimator.keep_prior(false);
+    taken.map_err(|(sample, error)| Error::Sample { sample, error })?;
+    Ok(outputs.finish(sizes))
+}
+
+/// The most samples that an estimator takes together.
+const MOST: usize = 64;
+
+fn take<T: Number>(
+    estimator: &mut AnyEstimator<T>,
+    record: &Record<'_, T>,
+    outputs: &mut Outputs<T>,
+) -> Result<(), (usize, forgetting::Error)> {
+    let together = matches!(record.noise, RecordNoise::Unit)
+        && !outputs.need_every_state()
+        && estimator.takes_many();
+    let mut outcomes = [Outcome::default(); MOST];
+    let mut k = 0;
+    while k < record.sizes.samples {
+        let taken = if together { many(estimator, record, k, &mut outcomes, outputs) } else { 0 };
+        if taken == 0 {
+            one(estimator, record, k, outputs).map_err(|error| (k, error))?;
+        }
+        k += taken.max(1);
+    }
+    Ok(())
+}
+
+/// Takes as many samples from the one at `first` on as the estimator can take together; returns
+/// how many, none if it cannot use the first.
+fn many<T: Number>(
+    estimator: &mut AnyEstimator<T>,
+    record: &Record<'_, T>,
+    first: usize,
+    outcomes: &mut [Outcome<T>; MOST],
+    outputs: &mut Outputs<T>,
+) -> usize {
+    let n = record.sizes.parameters;
+    let (phi, y) = (&record.phi[first * n..], &record.y[first..]);
+    let most = MOST.min(y.len());
+    let taken = outputs.with_thetas((most, n), |thetas| {
+        estimator.update_many(phi, y, &mut outcomes[..most], thetas)
+    });
+    outputs.note_all(estimator, &outcomes[..taken]);
+    taken
+}
+
+/// Takes the sample at `k`, or leaves it out.
+fn one<T: Number>(
+    estimator: &mut AnyEstimator<T>,
+    record: &Record<'_, T>,
+    k: usize,
+    outputs: &mut Outputs<T>,
+) -> Result<(), forgetting::Error> {
+    let Sizes { parameters: n, rows: p, targets: m, .. } = record.sizes;
+    let phi = &record.phi[k * p * n..(k + 1) * p * n];
+    let y = &record.y[k * p * m..(k + 1) * p * m];
+    let is_missing = |values: &[T]| values.iter().any(|x| x.to_f64().is_nan());
+    if record.missing == Missing::Skip && (is_missing(phi) || is_missing(y)) {
+        outputs.note_missing(p * m);
+        outputs.note_prior(estimator, true);
+    } else {
+        outputs.note(&estimator.update_with_noise(phi, y, record.noise.at(k, p))?);
+        outputs.note_prior(estimator, false);
+    }
+    outputs.note_state(estimator);
+    Ok(())
+}
