@@ -12,6 +12,10 @@
 //! No standard library, no allocation, no `unsafe`.
 #![no_std]
 #![forbid(unsafe_code)]
+#![allow(
+    clippy::needless_range_loop,
+    reason = "what an iterator calls may not be compiled for the vectors"
+)]
 
 #[cfg(test)]
 extern crate std;

@@ -21,8 +21,6 @@
 //! Computation 28, 1974, method C1; for the sum, R. Fletcher and M. J. D. Powell, *On the
 //! modification of LDLᵀ factorizations*, Mathematics of Computation 28, 1974.
 
-#![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
-
 use super::layout::BLOCK;
 use super::registers::Small;
 use super::tiles::{block_mut, eliminate, load_eight, store_eight, triangle, LongMut, Tile};

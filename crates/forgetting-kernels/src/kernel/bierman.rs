@@ -11,8 +11,6 @@
 //!
 //! G. J. Bierman, *Factorization Methods for Discrete Sequential Estimation*, 1977, chapter V.
 
-#![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
-
 use super::layout::BLOCK;
 use super::tiles::{
     block, block_mut, dots, load_eight, padding_d, store_eight, turn_columns, Long, LongMut,

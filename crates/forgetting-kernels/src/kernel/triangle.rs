@@ -1,7 +1,5 @@
 //! Products and solutions with U and Uᵀ, and f·P·fᵀ. O(n²/2) each.
 
-#![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
-
 use super::layout::{BLOCK, FEW};
 use super::registers::Small;
 use super::tiles::{

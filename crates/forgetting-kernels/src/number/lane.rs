@@ -1,8 +1,6 @@
 //! The arithmetic of the recursions: on one number, or on one number of each of several streams
 //! side by side.
 
-#![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
-
 use crate::number::Real;
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};

@@ -1,7 +1,5 @@
 //! A few streams of at most ten parameters.
 
-#![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
-
 use super::{
     accepts, adds, make_room, report, Abreast, Fate, Form, LaneOutcome, Line, Real, Trace,
 };

@@ -1,8 +1,6 @@
 //! The samples of a block: numbers of one stream after the other, as vectors with a stream in
 //! each lane.
 
-#![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
-
 use super::{Abreast, Line, Real, Samples};
 use core::ops::Range;
 

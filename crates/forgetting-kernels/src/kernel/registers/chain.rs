@@ -1,7 +1,5 @@
 //! D after a measurement, column by column.
 
-#![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
-
 use super::{floor, Gain, Small, Unit};
 use crate::number::lane::Lane;
 use crate::number::Real;

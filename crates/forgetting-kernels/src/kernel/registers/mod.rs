@@ -10,8 +10,6 @@
 //!                                   u' = u + slope_j x,  x ← x + z_j u,  then Bierman with u', w'
 //! ```
 
-#![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
-
 use super::layout::place;
 use crate::number::lane::{Lane, One};
 use crate::number::Real;

@@ -1,7 +1,5 @@
 //! At most ten parameters: U, D and θ stay in registers.
 
-#![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
-
 use super::super::bierman::largest;
 use super::super::measure::{along, scale, Bounds};
 use super::super::outcome::Outcome;

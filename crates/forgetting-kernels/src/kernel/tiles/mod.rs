@@ -3,8 +3,6 @@
 //! How many columns a pass over the tiles takes depends on the registers of the machine. The order
 //! in which the terms of a sum are added, and in which the columns change a row, does not.
 
-#![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
-
 mod add;
 mod chunks;
 mod dots;

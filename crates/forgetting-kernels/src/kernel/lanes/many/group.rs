@@ -1,9 +1,6 @@
 //! A few neighbouring columns of U together: what goes along the rows is read and written once for
 //! all of them, and none waits for another.
 
-// plain loops: what an iterator calls may not be compiled for the vectors
-#![allow(clippy::needless_range_loop, reason = "constant bounds unroll")]
-
 use super::work::{get, put, Work};
 use super::{read, write, Abreast, Line, Real};
 use core::marker::PhantomData;

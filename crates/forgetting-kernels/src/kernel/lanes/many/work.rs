@@ -1,7 +1,5 @@
 //! What a few streams of many parameters need while they take a sample.
 
-#![allow(clippy::needless_range_loop, reason = "iterators may not be compiled for the vectors")]
-
 use super::{Abreast, Line, Real};
 
 /// The most streams at a time.
