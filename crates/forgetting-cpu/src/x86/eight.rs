@@ -25,18 +25,12 @@ impl Eight<Fused<f64>> for Pair<__m256d> {
     }
     #[inline(always)]
     fn running_sums(self) -> Self {
+        let (low, high) = (Four(self.0).first_and_pair(), Four(self.1).first_and_pair());
         unsafe {
-            // [a, a + b, c, c + d]
-            let pairs = |x| _mm256_add_pd(x, _mm256_unpacklo_pd(_mm256_setzero_pd(), x));
-            let (low, high) = (pairs(self.0), pairs(self.1));
-            // a + b to the last two
-            let half = |pairs| {
-                let first = _mm256_permute2f128_pd::<0x08>(pairs, pairs);
-                _mm256_add_pd(pairs, _mm256_unpackhi_pd(first, first))
-            };
-            // the sum of the low half, at the same time
-            let sum = _mm256_add_pd(low, _mm256_permute2f128_pd::<0x01>(low, low));
-            Self(half(low), _mm256_add_pd(_mm256_unpackhi_pd(sum, sum), half(high)))
+            // the sum of the low half, at the same time as what is within both
+            let sum = _mm256_add_pd(low.0, _mm256_permute2f128_pd::<0x01>(low.0, low.0));
+            let sum = _mm256_unpackhi_pd(sum, sum);
+            Self(low.first_pair_added().0, _mm256_add_pd(sum, high.first_pair_added().0))
         }
     }
     #[inline(always)]
@@ -55,16 +49,11 @@ impl Eight<Fused<f64>> for Pair<__m256d> {
     }
     #[inline(always)]
     fn remaining_sums(self) -> Self {
+        let (low, high) = (Four(self.0).pair_and_last(), Four(self.1).pair_and_last());
         unsafe {
-            // [a + b, b, c + d, d], then c + d to the first two
-            let pairs = |x| _mm256_add_pd(x, _mm256_unpackhi_pd(x, _mm256_setzero_pd()));
-            let (low, high) = (pairs(self.0), pairs(self.1));
-            let half = |pairs| {
-                let last = _mm256_permute2f128_pd::<0x81>(pairs, pairs);
-                _mm256_add_pd(pairs, _mm256_unpacklo_pd(last, last))
-            };
-            let sum = _mm256_add_pd(high, _mm256_permute2f128_pd::<0x01>(high, high));
-            Self(_mm256_add_pd(_mm256_unpacklo_pd(sum, sum), half(low)), half(high))
+            let sum = _mm256_add_pd(high.0, _mm256_permute2f128_pd::<0x01>(high.0, high.0));
+            let sum = _mm256_unpacklo_pd(sum, sum);
+            Self(_mm256_add_pd(sum, low.last_pair_added().0), high.last_pair_added().0)
         }
     }
     #[inline(always)]
@@ -80,6 +69,42 @@ impl Eight<Fused<f64>> for Pair<__m256d> {
     fn first(self) -> Self {
         let first = unsafe { _mm256_broadcastsd_pd(_mm256_castpd256_pd128(self.0)) };
         Self(first, first)
+    }
+}
+
+/// Half of eight numbers.
+// methods, not closures: those would be functions of their own, without the instructions
+#[derive(Clone, Copy)]
+struct Four(__m256d);
+
+impl Four {
+    /// a, a + b, c, c + d
+    #[inline(always)]
+    fn first_and_pair(self) -> Self {
+        let x = self.0;
+        Self(unsafe { _mm256_add_pd(x, _mm256_unpacklo_pd(_mm256_setzero_pd(), x)) })
+    }
+    /// The second of them added to the last two.
+    #[inline(always)]
+    fn first_pair_added(self) -> Self {
+        unsafe {
+            let first = _mm256_permute2f128_pd::<0x08>(self.0, self.0);
+            Self(_mm256_add_pd(self.0, _mm256_unpackhi_pd(first, first)))
+        }
+    }
+    /// a + b, b, c + d, d
+    #[inline(always)]
+    fn pair_and_last(self) -> Self {
+        let x = self.0;
+        Self(unsafe { _mm256_add_pd(x, _mm256_unpackhi_pd(x, _mm256_setzero_pd())) })
+    }
+    /// The third of them added to the first two.
+    #[inline(always)]
+    fn last_pair_added(self) -> Self {
+        unsafe {
+            let last = _mm256_permute2f128_pd::<0x81>(self.0, self.0);
+            Self(_mm256_add_pd(self.0, _mm256_unpacklo_pd(last, last)))
+        }
     }
 }
 

@@ -26,6 +26,7 @@ pub const BLOCK: usize = 8;
 pub const FEW: usize = 10;
 
 /// How many blocks come before column 8 `block`, counted in tiles of `rows` rows.
+#[inline(always)]
 const fn tiles_before(block: usize, rows: usize) -> usize {
     if rows == BLOCK {
         block * (block + 1) / 2
@@ -34,6 +35,7 @@ const fn tiles_before(block: usize, rows: usize) -> usize {
     }
 }
 
+#[inline(always)]
 const fn length_of(n: usize, rows: usize) -> usize {
     if n <= BLOCK {
         n * rows
@@ -43,16 +45,19 @@ const fn length_of(n: usize, rows: usize) -> usize {
 }
 
 /// How many numbers U of n columns takes.
+#[inline(always)]
 pub const fn length<T: Real>(n: usize) -> usize {
     length_of(n, T::ROWS)
 }
 
 /// Room for U of n columns, or for several of n columns in all.
+#[inline(always)]
 pub const fn capacity<T: Real>(n: usize) -> usize {
     length_of(n, T::ROWS) + if n <= BLOCK { 0 } else { BLOCK * T::ROWS }
 }
 
 /// The same for any number type.
+#[inline(always)]
 pub const fn most(n: usize) -> usize {
     length_of(n, 2 * BLOCK) + if n <= BLOCK { 0 } else { 2 * BLOCK * BLOCK }
 }

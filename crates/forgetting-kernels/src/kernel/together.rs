@@ -1,7 +1,8 @@
 //! Samples that arrive together, and what they do to θ.
 
+use super::vectors::{first_of, put_first};
 use crate::number::vector::Vector;
-use crate::number::{copy_first, Real};
+use crate::number::Real;
 
 /// Puts the n numbers of each sample, which come one after the other at the beginning of `phi`, side
 /// by side in `f`, and zeros after them; returns ‖φ‖² of each.
@@ -23,7 +24,7 @@ pub fn arrive<T: Real, V: Vector<T>, const S: usize>(
     if rest > 0 {
         for l in 0..S {
             let numbers = &phi[l * n + full * T::ROWS..];
-            let lanes = match T::chunks(numbers).0.first() {
+            let lanes: V = match T::chunks(numbers).0.first() {
                 // what follows are numbers of other samples
                 Some(chunk) => V::load(chunk).first(rest),
                 None => V::load(&T::chunk(&numbers[..rest])),
@@ -62,28 +63,14 @@ pub fn correct<'a, T: Real, V: Vector<T>, const S: usize>(
     for l in 0..S {
         factors[l] = V::splat(steps[l]);
     }
-    let (full, rest) = T::chunks_mut(theta);
-    let mut last = T::chunk(rest);
-    for t in 0..n.div_ceil(T::ROWS) {
-        let chunk = match full.get_mut(t) {
-            Some(chunk) => chunk,
-            None => &mut last,
-        };
-        let mut now = V::load(chunk);
+    for (t, theta) in theta.chunks_mut(T::ROWS).enumerate() {
+        let mut now = first_of(theta);
         for l in 0..S {
             now = factors[l].mul_add(V::load(gain(l, t)), now);
             if !thetas.is_empty() {
-                let after = &mut thetas[l * n + t * T::ROWS..(l + 1) * n];
-                match T::chunks_mut(after).0.first_mut() {
-                    Some(after) => now.store(after),
-                    None => {
-                        now.store(chunk);
-                        copy_first(after, chunk.as_ref());
-                    }
-                }
+                put_first(&mut thetas[l * n + t * T::ROWS..(l + 1) * n], now);
             }
         }
-        now.store(chunk);
+        put_first(theta, now);
     }
-    copy_first(rest, last.as_ref());
 }

@@ -1,6 +1,7 @@
 //! The diagonal of P.
 
 use super::layout::place;
+use super::vectors::put_first;
 use crate::kernel::dispatch::Kernel;
 use crate::number::vector::Vector;
 use crate::number::Real;
@@ -27,21 +28,14 @@ impl<T: Real> Kernel<T> for Variances<'_, T> {
     #[inline(always)]
     fn run<V: Vector<T>, const GROUP: usize>(self) {
         let Self { columns, diagonal, variances } = self;
-        variances.fill(T::ZERO);
-        let (variances, rest) = T::chunks_mut(variances);
-        for (k, &d) in diagonal.iter().enumerate() {
+        for (t, variances) in variances.chunks_mut(T::ROWS).enumerate() {
+            let (first, mut sum) = (t * T::ROWS, V::splat(T::ZERO));
             // there are zeros below the diagonal
-            let piece = |i: usize| &columns[place::<T>(i * T::ROWS, k)..][..T::ROWS];
-            let (whole, scale) = (variances.len().min(k / T::ROWS + 1), V::splat(d));
-            for (i, variance) in variances[..whole].iter_mut().enumerate() {
-                let u = V::load(&T::chunks(piece(i)).0[0]);
-                (V::load(variance) + u * scale * u).store(variance);
+            for (k, &d) in diagonal.iter().enumerate().skip(first) {
+                let u = V::load(&T::chunks(&columns[place::<T>(first, k)..]).0[0]);
+                sum = sum + u * V::splat(d) * u;
             }
-            if k / T::ROWS == variances.len() {
-                for (variance, &u) in rest.iter_mut().zip(piece(whole)) {
-                    *variance += u * d * u;
-                }
-            }
+            put_first(variances, sum);
         }
     }
 }

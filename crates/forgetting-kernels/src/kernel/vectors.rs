@@ -4,7 +4,7 @@ use super::layout::FEW;
 use crate::kernel::dispatch::Kernel;
 use crate::number::lane::Lane;
 use crate::number::vector::Vector;
-use crate::number::Real;
+use crate::number::{copy_first, Real};
 
 /// Σ aᵢ bᵢ over the shorter of the two.
 pub struct Dot<'a, T> {
@@ -96,6 +96,28 @@ pub fn copy<T: Real, V: Vector<T>>(from: &[T], to: &mut [T]) {
     }
     for (&from, to) in from_rest.iter().zip(to_rest) {
         *to = from;
+    }
+}
+
+/// As many numbers as a vector has, or fewer and zeros.
+#[inline(always)]
+pub fn first_of<T: Real, V: Vector<T>>(numbers: &[T]) -> V {
+    match T::chunks(numbers).0.first() {
+        Some(chunk) => V::load(chunk),
+        None => V::load(&T::chunk(numbers)),
+    }
+}
+
+/// Writes a vector where there is room for as many numbers, or the first of them.
+#[inline(always)]
+pub fn put_first<T: Real, V: Vector<T>>(to: &mut [T], vector: V) {
+    match T::chunks_mut(to).0.first_mut() {
+        Some(chunk) => vector.store(chunk),
+        None => {
+            let mut chunk = T::chunk(&[]);
+            vector.store(&mut chunk);
+            copy_first(to, chunk.as_ref());
+        }
     }
 }
 

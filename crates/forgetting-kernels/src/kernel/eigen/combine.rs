@@ -1,12 +1,11 @@
 //! New eigenvectors as combinations of old ones: the one step that costs O(n³).
 
+use crate::kernel::vectors::{first_of, put_first};
 use crate::number::vector::Vector;
 use crate::number::Real;
 
 /// Rows of a panel, which then stays in the fastest memory.
 const DEPTH: usize = 64;
-/// Room for the longest chunk of numbers.
-const LONGEST: usize = 16;
 
 /// The old eigenvectors that are combined: the rows of n numbers with a component other than 0.
 #[derive(Clone, Copy)]
@@ -30,20 +29,19 @@ pub fn combine<T: Real, V: Vector<T>, const GROUP: usize>(
     rows: Rows<'_, T>,
     product: &mut [T],
 ) {
-    let lanes = size_of::<T::Chunk>() / size_of::<T>();
-    let mut panel = [T::ZERO; DEPTH * LONGEST];
-    for column in (0..rows.n).step_by(lanes) {
-        let place = Place { column, width: lanes.min(rows.n - column), n: rows.n };
+    // filled before it is read; not with zeros: to clear so much is a call
+    let mut panel = [T::chunk(&rows.vectors[..rows.n.min(T::ROWS)]); DEPTH];
+    for column in (0..rows.n).step_by(T::ROWS) {
+        let place = Place { column, width: T::ROWS.min(rows.n - column), n: rows.n };
         let (mut first, mut filled) = (0, 0);
         for (row, &component) in rows.vectors.chunks_exact(rows.n).zip(rows.components) {
             if component == T::ZERO {
                 continue;
             }
-            panel[filled * lanes..][..place.width]
-                .copy_from_slice(&row[column..column + place.width]);
+            first_of::<T, V>(&row[column..column + place.width]).store(&mut panel[filled]);
             filled += 1;
             if first + filled == active || filled == DEPTH {
-                let (panel, _) = T::chunks(&panel[..filled * lanes]);
+                let panel = &panel[..filled];
                 add::<T, V, GROUP>(turn, active, (panel, first), place, product);
                 (first, filled) = (first + filled, 0);
             }
@@ -85,15 +83,10 @@ fn add<T: Real, V: Vector<T>, const GROUP: usize>(
             tile::<T, V, 1>([&turn[j * active + first..][..panel.len()]], panel, &mut one);
             sums[0] = one[0];
         }
-        for (r, sum) in sums.iter().take(rows).enumerate() {
-            let mut buffer = [T::ZERO; LONGEST];
-            if let Some(chunk) = T::chunks_mut(&mut buffer).0.first_mut() {
-                sum.store(chunk);
-            }
+        for (r, &sum) in sums.iter().take(rows).enumerate() {
             let target = &mut product[(j + r) * n + column..][..width];
-            for (x, &sum) in target.iter_mut().zip(&buffer) {
-                *x = if first == 0 { sum } else { *x + sum };
-            }
+            let before: V = first_of(target);
+            put_first(target, if first == 0 { sum } else { before + sum });
         }
         j += rows;
     }

@@ -58,18 +58,12 @@ impl<'a, T: Real, A: Abreast<T>, const N: usize> State<'a, T, A, N> {
         self.lines = &mut lines[..Self::LAYOUT.length()];
     }
 
-    /// All numbers, if some streams are to get them back.
+    /// Copies all numbers, for the streams that are to get them back.
     #[inline(always)]
-    fn copy_unless_all(&self, used: A::Mask) -> Option<[A; MOST]> {
-        if A::all(used) {
-            return None;
-        }
-        // not zeros: to clear so many is a call, for which all registers are put away
-        let mut copy = [self.read(0); MOST];
-        for at in 1..Self::LAYOUT.length() {
+    fn copy_to(&self, copy: &mut [A; MOST]) {
+        for at in 0..Self::LAYOUT.length() {
             copy[at] = self.read(at);
         }
-        Some(copy)
     }
 }
 
@@ -138,9 +132,16 @@ fn scale<T: Real, A: Abreast<T>, const N: usize>(
     let bound = small.u.read(layout.bound());
     let room = (growth, A::splat(T::ZERO));
     let (bound, used) = make_room(bound, room, accepted, &small);
-    let before = small.u.copy_unless_all(used);
+    let mut copy;
+    let mut before = None;
+    if !A::all(used) {
+        // not zeros: to clear so many is a call, for which all registers are put away
+        copy = [bound; MOST];
+        small.u.copy_to(&mut copy);
+        before = Some(&copy);
+    }
     let gain = small.scale_and_measure::<T, true>(growth, f);
-    let outcome = correct(small, &gain, (bound, error), (before.as_ref(), used));
+    let outcome = correct(small, &gain, (bound, error), (before, used));
     match before {
         None => outcome,
         Some(_) => {
@@ -176,13 +177,20 @@ fn along<T: Real, A: Abreast<T>, const N: usize>(
     let room = (one, c * squares);
     let (bound, used) = make_room(bound, room, informed, &small);
     small.u.read_again();
-    let before = small.u.copy_unless_all(used);
+    let mut copy;
+    let mut before = None;
+    if !A::all(used) {
+        // not zeros: to clear so many is a call, for which all registers are put away
+        copy = [bound; MOST];
+        small.u.copy_to(&mut copy);
+        before = Some(&copy);
+    }
     let silent = match before {
         Some(_) if with_leverage => small.leverage(f),
         _ => error,
     };
     let gain = small.add_and_measure::<T, true>((c, t), &along, f);
-    let outcome = correct(small, &gain, (bound, error), (before.as_ref(), used));
+    let outcome = correct(small, &gain, (bound, error), (before, used));
     match before {
         None => outcome,
         Some(_) => report::mixed(&Fate { accepted, informed, used }, (y, squares), outcome, silent),

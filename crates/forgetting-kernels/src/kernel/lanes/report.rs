@@ -13,19 +13,29 @@ pub fn mixed<T: Real, A: Abreast<T>>(
     all: LaneOutcome<A>,
     silent: A,
 ) -> LaneOutcome<A> {
-    let number = |x: f64| A::splat(T::from_f64(x));
-    let code = |code: u8| number(f64::from(code));
-    let choose = |used, dead, without| {
-        let accepted = A::select(fate.informed, without, dead);
-        A::select(fate.used, used, A::select(fate.accepted, accepted, without))
-    };
-    let nan = number(f64::NAN);
+    let nan = A::splat(T::from_f64(f64::NAN));
     let there = A::both(y.at_most(y), squares.at_most(squares));
     let refused = A::select(there, code(REFUSED), code(MISSING));
     LaneOutcome {
-        error: choose(all.error, all.error, nan),
-        leverage: choose(all.leverage, silent, nan),
-        codes: Some(choose(code(0), code(DEAD_ZONE), refused)),
+        error: fate.choose(all.error, all.error, nan),
+        leverage: fate.choose(all.leverage, silent, nan),
+        codes: Some(fate.choose(code(0), code(DEAD_ZONE), refused)),
+    }
+}
+
+/// A code in every lane.
+#[inline(always)]
+fn code<T: Real, A: Abreast<T>>(code: u8) -> A {
+    A::splat(T::from_f64(f64::from(code)))
+}
+
+impl<T: Real, A: Abreast<T>> Fate<T, A> {
+    /// One of three for each stream: for those that used their samples, for those in the dead zone,
+    /// and for all that are without one.
+    #[inline(always)]
+    fn choose(&self, used: A, dead: A, without: A) -> A {
+        let accepted = A::select(self.informed, without, dead);
+        A::select(self.used, used, A::select(self.accepted, accepted, without))
     }
 }
 

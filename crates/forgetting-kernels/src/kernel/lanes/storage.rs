@@ -47,31 +47,37 @@ pub struct Layout {
 
 impl Layout {
     /// Of n parameters.
+    #[inline(always)]
     pub const fn new(n: usize) -> Self {
         Self { n }
     }
 
     /// How many numbers there are.
+    #[inline(always)]
     pub const fn length(self) -> usize {
         self.theta() + self.n
     }
 
     /// Column j of U above its diagonal.
+    #[inline(always)]
     pub const fn column(self, j: usize) -> usize {
         j * j.saturating_sub(1) / 2
     }
 
     /// D
+    #[inline(always)]
     pub const fn diagonal(self) -> usize {
         self.column(self.n)
     }
 
     /// The bound of P's trace.
+    #[inline(always)]
     pub const fn bound(self) -> usize {
         self.diagonal() + self.n
     }
 
     /// θ
+    #[inline(always)]
     pub const fn theta(self) -> usize {
         self.bound() + 1
     }

@@ -13,8 +13,10 @@ pub struct Chain<A, const N: usize> {
     a: A,
     inverse_a: A,
     largest: A,
-    /// what to multiply each column of U with at the end, if not all with 1
-    shares: Option<[A; N]>,
+    /// what to multiply each column of U with at the end
+    shares: [A; N],
+    /// whether any of those is not 1
+    lifted: bool,
 }
 
 impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
@@ -43,7 +45,8 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
         for c in (0..N).rev() {
             s = w[c].mul_add(v[c], s);
         }
-        let mut chain = Chain { v, inverse, s, a, inverse_a, largest, shares: None };
+        let mut chain =
+            Chain { v, inverse, s, a, inverse_a, largest, shares: [one; N], lifted: false };
         if NEAR && !A::all(floor::far_after(least, a)) {
             (self.d, *w, chain) = lift(self.d, *w, chain);
         }
@@ -56,12 +59,12 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
     where
         A: Lane<T>,
     {
-        let Some(shares) = &chain.shares else {
+        if !chain.lifted {
             return;
-        };
+        }
         for c in 0..N {
             for i in 0..c {
-                self.u.set(c, i, self.u.get(c, i) * shares[c]);
+                self.u.set(c, i, self.u.get(c, i) * chain.shares[c]);
             }
         }
     }
@@ -76,15 +79,16 @@ fn lift<T: Real, A: Lane<T>, const N: usize>(
     mut w: [A; N],
     mut chain: Chain<A, N>,
 ) -> ([A; N], [A; N], Chain<A, N>) {
-    let (mut shares, mut inverse_after) = ([A::splat(T::ONE); N], chain.inverse_a);
+    let mut inverse_after = chain.inverse_a;
     for c in (0..N).rev() {
         let inverse = chain.inverse[c];
         let column = floor::Column { d: d[c], w: w[c], v: chain.v[c], inverse };
         let (column, share) = column.lift(inverse_after, chain.a);
-        (d[c], w[c], chain.inverse[c], shares[c]) = (column.d, column.w, column.inverse, share);
+        (d[c], w[c], chain.inverse[c]) = (column.d, column.w, column.inverse);
+        chain.shares[c] = share;
         inverse_after = inverse;
     }
-    chain.shares = Some(shares);
+    chain.lifted = true;
     (d, w, chain)
 }
 
