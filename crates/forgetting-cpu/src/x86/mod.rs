@@ -8,6 +8,7 @@ use crate::level::Vectors;
 use core::arch::x86_64::*;
 use forgetting_kernels::number::vector::Vector;
 
+mod columns;
 mod eight;
 mod lanes;
 mod single;

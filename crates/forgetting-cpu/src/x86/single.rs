@@ -3,7 +3,7 @@
 //! As everywhere in this folder: only what has checked the machine names these types, so that
 //! every intrinsic here has its instructions.
 
-use super::{at, at_mut, Wide};
+use super::{at, at_mut, columns, Wide};
 use crate::fused::Fused;
 use core::arch::x86_64::*;
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -125,7 +125,8 @@ one!(f32, __m128: _mm_cvtss_f32);
 
 /// Numbers of streams, in and out of a register.
 macro_rules! abreast {
-    ($Register:ident<$register:ty>, $float:ident, $count:literal: $load:ident $store:ident) => {
+    ($Register:ident<$register:ty>, $float:ident, $count:literal: $load:ident $store:ident
+     $(, $columns:ident)?) => {
         impl Abreast<Fused<$float>> for $Register<$register> {
             const COUNT: usize = $count;
 
@@ -149,6 +150,13 @@ macro_rules! abreast {
                 }
                 Self::read(&numbers)
             }
+            $(#[inline(always)]
+            fn columns<const N: usize>(rows: &[[Fused<$float>; N]]) -> [Self; N] {
+                match rows.first_chunk() {
+                    Some(rows) => columns::$columns(rows),
+                    None => unreachable!("there is a row for each lane"),
+                }
+            })?
             #[inline(always)]
             fn prefetch<L>(line: &L) {
                 // SAFETY: an address is all that it takes
@@ -161,4 +169,4 @@ macro_rules! abreast {
 abreast!(Single<__m256d>, f64, 4: _mm256_loadu_pd _mm256_storeu_pd);
 abreast!(Single<__m256>, f32, 8: _mm256_loadu_ps _mm256_storeu_ps);
 abreast!(Wide<__m512d>, f64, 8: _mm512_loadu_pd _mm512_storeu_pd);
-abreast!(Wide<__m512>, f32, 16: _mm512_loadu_ps _mm512_storeu_ps);
+abreast!(Wide<__m512>, f32, 16: _mm512_loadu_ps _mm512_storeu_ps, of_sixteen);

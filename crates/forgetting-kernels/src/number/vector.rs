@@ -42,6 +42,15 @@ pub trait Abreast<T: Real>: Lane<T> {
     fn write(self, numbers: &mut [T]);
     /// The number at each position.
     fn at(number: impl Fn(usize) -> T) -> Self;
+    /// The columns of [`Abreast::COUNT`] rows, with a row in each lane.
+    #[inline(always)]
+    fn columns<const N: usize>(rows: &[[T; N]]) -> [Self; N] {
+        let mut columns = [Self::splat(T::ZERO); N];
+        for i in 0..N {
+            columns[i] = Self::at(|lane| rows[lane][i]);
+        }
+        columns
+    }
     /// Asks memory for what will be needed soon, where a machine has an instruction for that.
     #[inline(always)]
     fn prefetch<L>(_line: &L) {}

@@ -7,15 +7,12 @@ use core::ops::Range;
 /// The regressors of the streams from `lane` on as columns; zeros in the lanes that are over.
 #[inline(always)]
 pub fn columns<T: Real, A: Abreast<T>, const N: usize>(rows: &[[T; N]], lane: usize) -> [A; N] {
-    let mut columns = [A::splat(T::ZERO); N];
     if let Some(rows) = rows.get(lane..lane + A::COUNT) {
-        for i in 0..N {
-            columns[i] = A::at(|lane| rows[lane][i]);
-        }
-    } else {
-        for i in 0..N {
-            columns[i] = A::at(|k| rows.get(lane + k).map_or(T::ZERO, |row| row[i]));
-        }
+        return A::columns(rows);
+    }
+    let mut columns = [A::splat(T::ZERO); N];
+    for i in 0..N {
+        columns[i] = A::at(|k| rows.get(lane + k).map_or(T::ZERO, |row| row[i]));
     }
     columns
 }
