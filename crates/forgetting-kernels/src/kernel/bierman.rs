@@ -13,8 +13,8 @@
 
 use super::layout::BLOCK;
 use super::tiles::{
-    block, block_mut, dots, load_eight, padding_d, store_eight, turn_columns, Long, LongMut,
-    PerColumn, Tile, Turn,
+    block, block_mut, change_columns, dots, load_eight, padding_d, store_eight, Long, LongMut,
+    PerColumn, RankOne, Tile,
 };
 use crate::kernel::measured::Measured;
 use crate::number::eight::Eight;
@@ -158,9 +158,9 @@ pub fn scale_and_measure<T: Real, V: Vector<T>, const GROUP: usize>(
         }
         let d = load_eight::<T, V::Eight>(diagonal, b, padding_d()) * growth;
         let Pass { d, slope, v, .. } = chain.pass(d, w);
-        let turn = Turn { slope: &slope.numbers(), factor: &v.numbers() };
+        let change = RankOne { slope: &slope.numbers(), factor: &v.numbers() };
         let block = block_mut(columns, b);
-        turn_columns::<T, V, _, GROUP, 1>((block, b), &mut k, &[turn]);
+        change_columns::<T, V, _, GROUP, 1>((block, b), &mut k, &[change]);
         settle(block, (diagonal, b), d);
     }
     k.finish();

@@ -1,24 +1,18 @@
 //! Samples that arrive together, and what they do to θ.
 
 use super::vectors::{first_of, put_first};
+use crate::number::eight::Eight;
 use crate::number::vector::Vector;
 use crate::number::Real;
 
 /// Puts the n numbers of each sample, which come one after the other at the beginning of `phi`, side
-/// by side in `f`, and zeros after them; returns ‖φ‖² of each.
+/// by side in `f`, and zeros after them.
 #[inline(always)]
-pub fn arrive<T: Real, V: Vector<T>, const S: usize>(
-    phi: &[T],
-    n: usize,
-    f: &mut [[T::Chunk; S]],
-) -> [T; S] {
+pub fn arrive<T: Real, V: Vector<T>, const S: usize>(phi: &[T], n: usize, f: &mut [[T::Chunk; S]]) {
     let (full, rest) = (n / T::ROWS, n % T::ROWS);
-    let mut squares = [V::splat(T::ZERO); S];
     for (t, f) in f[..full].iter_mut().enumerate() {
         for l in 0..S {
-            let lanes = V::load(&T::chunks(&phi[l * n + t * T::ROWS..]).0[0]);
-            lanes.store(&mut f[l]);
-            squares[l] = lanes.mul_add(lanes, squares[l]);
+            V::load(&T::chunks(&phi[l * n + t * T::ROWS..]).0[0]).store(&mut f[l]);
         }
     }
     if rest > 0 {
@@ -30,24 +24,31 @@ pub fn arrive<T: Real, V: Vector<T>, const S: usize>(
                 None => V::load(&T::chunk(&numbers[..rest])),
             };
             lanes.store(&mut f[full][l]);
-            squares[l] = lanes.mul_add(lanes, squares[l]);
         }
     }
-    V::sums(squares)
 }
 
-/// φθ of each.
+/// φθ and ‖φ‖² of each, at most four.
 #[inline(always)]
-pub fn predict<T: Real, V: Vector<T>, const S: usize>(theta: &[T], f: &[[T::Chunk; S]]) -> [T; S] {
-    let (full, rest) = T::chunks(theta);
-    let (mut predicted, last) = ([V::splat(T::ZERO); S], T::chunk(rest));
-    for (t, f) in f.iter().enumerate() {
-        let theta = V::load(full.get(t).unwrap_or(&last));
+pub fn predict<T: Real, V: Vector<T>, const S: usize>(
+    theta: &[T],
+    f: &[[T::Chunk; S]],
+) -> ([T; S], [T; S]) {
+    let mut sums = [V::splat(T::ZERO); 8];
+    for (theta, f) in theta.chunks(T::ROWS).zip(f) {
+        let theta: V = first_of(theta);
         for l in 0..S {
-            predicted[l] = V::load(&f[l]).mul_add(theta, predicted[l]);
+            let f = V::load(&f[l]);
+            sums[l] = f.mul_add(theta, sums[l]);
+            sums[4 + l] = f.mul_add(f, sums[4 + l]);
         }
     }
-    V::sums(predicted)
+    let numbers = V::eight_sums(sums).numbers();
+    let (mut predicted, mut squares) = ([T::ZERO; S], [T::ZERO; S]);
+    for l in 0..S {
+        (predicted[l], squares[l]) = (numbers[l], numbers[4 + l]);
+    }
+    (predicted, squares)
 }
 
 /// θ ← θ + Σ_l step_l k_l, one after the other; `gain` gives k_l for the rows of a tile, `thetas`

@@ -29,7 +29,7 @@ mod solve;
 use super::bierman::settle;
 use super::layout::BLOCK;
 use super::tiles::{
-    block, block_mut, dots_beside, load_eight, padding_d, turn_columns, PerColumn, Turn,
+    block, block_mut, change_columns, dots_beside, load_eight, padding_d, PerColumn, RankOne,
 };
 use crate::number::eight::Eight;
 use crate::number::vector::Vector;
@@ -118,14 +118,15 @@ impl<'a, T: Real, const B: usize, const R: usize> Room<'a, T, B, R> {
         diagonal: &mut [T],
     ) {
         for b in 0..self.of_all.len() {
-            let mut turns = [Turn { slope: &self.of_all[b][D], factor: &self.of_all[b][D] }; R];
+            let mut changes =
+                [RankOne { slope: &self.of_all[b][D], factor: &self.of_all[b][D] }; R];
             for l in 0..B {
                 let own = &self.of_one[b][l];
-                turns[2 * l] = Turn { slope: &own[WIDENING], factor: z_of(self.z, l, b) };
-                turns[2 * l + 1] = Turn { slope: &own[SLOPE], factor: &own[V] };
+                changes[2 * l] = RankOne { slope: &own[WIDENING], factor: z_of(self.z, l, b) };
+                changes[2 * l + 1] = RankOne { slope: &own[SLOPE], factor: &own[V] };
             }
             let block = block_mut(columns, b);
-            turn_columns::<T, V, _, GROUP, R>((block, b), self.sums, &turns);
+            change_columns::<T, V, _, GROUP, R>((block, b), self.sums, &changes);
             settle(block, (diagonal, b), V::Eight::read(&self.of_all[b][D]));
         }
     }

@@ -4,11 +4,11 @@ use super::super::bierman::{above_floor, largest_of, Chain, Pass};
 use super::{z_of, z_of_mut, Room};
 use super::{D, LATER, Q, SLOPE, V, V_OVER_A, W, WIDENED, WIDENING, Z_OVER_T};
 use crate::kernel::measured::Measured;
-use crate::kernel::tiles::Turn;
+use crate::kernel::tiles::RankOne;
 use crate::number::eight::Eight;
 use crate::number::Real;
 
-/// Sums of the first sample's turns along the row of a second one, in all lanes.
+/// Sums of the first sample's changes along the row of a second one, in all lanes.
 type Shared<E> = [E; 2];
 
 impl<T: Real, const B: usize, const R: usize> Room<'_, T, B, R> {
@@ -27,14 +27,14 @@ impl<T: Real, const B: usize, const R: usize> Room<'_, T, B, R> {
     #[inline(always)]
     pub fn information<E: Eight<T>, const L: usize>(&mut self) -> T {
         let zero = E::splat(T::ZERO);
-        let (mut sum, mut turned) = (zero, [zero; 2]);
+        let (mut sum, mut sums_of_first) = (zero, [zero; 2]);
         for (b, all) in self.of_all.iter_mut().enumerate().rev() {
             let at = z_of_mut(self.z, L, b);
             let mut z = E::read(at);
             if L > 0 {
-                let [widened, measured] = &mut turned;
-                z = turn_back(z, (-E::read(&all[Z_OVER_T]), E::read(&all[Q])), widened);
-                z = turn_back(z, (E::read(&all[V_OVER_A]), E::read(&all[WIDENED])), measured);
+                let [widened, measured] = &mut sums_of_first;
+                z = change_back(z, (-E::read(&all[Z_OVER_T]), E::read(&all[Q])), widened);
+                z = change_back(z, (E::read(&all[V_OVER_A]), E::read(&all[WIDENED])), measured);
                 z.write(at);
             }
             let q = z / E::read(&all[D]);
@@ -63,10 +63,10 @@ impl<T: Real, const B: usize, const R: usize> Room<'_, T, B, R> {
         for (b, (all, own)) in self.of_all.iter_mut().zip(&mut *self.of_one).enumerate() {
             let mut w = E::read(&own[L][W]);
             if L > 0 {
-                let turn = Turn { slope: &own[0][WIDENING], factor: z_of(self.z, 0, b) };
-                w = turn.turn_row(w, &mut shared[0]);
-                let turn = Turn { slope: &own[0][SLOPE], factor: &own[0][V] };
-                w = turn.turn_row(w, &mut shared[1]);
+                let change = RankOne { slope: &own[0][WIDENING], factor: z_of(self.z, 0, b) };
+                w = change.change_row(w, &mut shared[0]);
+                let change = RankOne { slope: &own[0][SLOPE], factor: &own[0][V] };
+                w = change.change_row(w, &mut shared[1]);
             }
             let (at, q) = (z_of(self.z, L, b), E::read(&all[Q]));
             let (z, inverse_t) = (E::read(at), one / (t + E::read(&all[LATER])));
@@ -75,8 +75,8 @@ impl<T: Real, const B: usize, const R: usize> Room<'_, T, B, R> {
             before = inverse_t.last();
             let z_over_t = z * inverse_t;
             let d = z_over_t.mul_add(z, E::read(&all[D]));
-            let turn = Turn { slope: &own[L][WIDENING], factor: at };
-            w = turn.turn_row(w, &mut p);
+            let change = RankOne { slope: &own[L][WIDENING], factor: at };
+            w = change.change_row(w, &mut p);
             let Pass { d, slope, v, inverse } = chain.pass(d, w);
             (most, less_least) = (most.max(d), less_least.max(-d));
             d.write(&mut all[D]);
@@ -95,9 +95,9 @@ impl<T: Real, const B: usize, const R: usize> Room<'_, T, B, R> {
 
 /// z_j + factor_j Σ_{i>j} slope_i z_i; `sum` is that of the columns after these, in all lanes.
 #[inline(always)]
-fn turn_back<T: Real, E: Eight<T>>(z: E, (factor, slope): (E, E), sum: &mut E) -> E {
+fn change_back<T: Real, E: Eight<T>>(z: E, (factor, slope): (E, E), sum: &mut E) -> E {
     let sums = *sum + (slope * z).remaining_sums();
-    let turned = factor.mul_add(sums.after(*sum), z);
+    let changed = factor.mul_add(sums.after(*sum), z);
     *sum = sums.first();
-    turned
+    changed
 }

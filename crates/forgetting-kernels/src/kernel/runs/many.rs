@@ -98,14 +98,14 @@ fn batches<T: Real, V: Vector<T>, const GROUP: usize>(
     let Steps { place, phi, y, theta, told, thetas, .. } = task;
     let (n, most) = (theta.len(), told.len().min(y.len()));
     let (mut room, mut at) = (batch::Room::of(place.scratch, n), first);
-    let [mut squares, mut steps] = [[T::ZERO; BATCH]; 2];
+    let mut steps = [T::ZERO; BATCH];
     loop {
         let (done, next) = (at > first, at + BATCH <= most);
         if next {
-            squares = arrive::<T, V, BATCH>(&phi[at * n..], n, room.f);
+            arrive::<T, V, BATCH>(&phi[at * n..], n, room.f);
         }
         let p = (&mut *place.columns, &mut *place.diagonal);
-        let leverages = room.sweep::<V, GROUP>(p, done, next);
+        let leverage = room.sweep::<V, GROUP>(p, done, next);
         if done {
             let thetas = thetas.get_mut((at - BATCH) * n..at * n).unwrap_or_default();
             correct::<T, V, BATCH>(theta, &steps, |l, t| &room.k[t][l], thetas);
@@ -113,12 +113,13 @@ fn batches<T: Real, V: Vector<T>, const GROUP: usize>(
         if !next {
             break;
         }
-        let mut errors = predict::<T, V, BATCH>(theta, room.f);
+        let (mut errors, squares) = predict::<T, V, BATCH>(theta, room.f);
         for l in 0..BATCH {
             errors[l] = y[at + l] - errors[l];
         }
-        let arrived = (&mut errors, &squares, &leverages);
-        let Some(measured) = measure_batch::<T, V>(&mut room, place.bound, growth, arrived) else {
+        let arrived = (&mut errors, &squares, leverage);
+        let Some(measured) = measure_batch::<T, V, GROUP>(&mut room, place.bound, growth, arrived)
+        else {
             break;
         };
         for l in 0..BATCH {
@@ -130,27 +131,20 @@ fn batches<T: Real, V: Vector<T>, const GROUP: usize>(
     (at > first).then(|| at - first)
 }
 
-/// What the samples do to D and to columns still to be changed, and their errors, each with the θ that
-/// those before it leave; nothing, with the bound of P as it was, if one is not to be used so.
+/// Measures a batch: updates D and the pending column changes, and corrects each error for the samples
+/// before it. None, and nothing changed, if a sample cannot be taken in a batch.
 #[inline(always)]
-fn measure_batch<T: Real, V: Vector<T>>(
+fn measure_batch<T: Real, V: Vector<T>, const GROUP: usize>(
     room: &mut batch::Room<'_, T>,
     bound: &mut T,
     growth: T,
-    (errors, squares, leverages): (&mut PerSample<T>, &PerSample<T>, &PerSample<T>),
+    (errors, squares, leverage): (&mut PerSample<T>, &PerSample<T>, T),
 ) -> Option<PerSample<Measured<T>>> {
     let grown = (0..BATCH).fold(*bound, |bound, _| bound * growth);
     (grown < T::CEILING).then_some(())?;
-    for leverage in &leverages[1..] {
-        keeps_digits(*leverage * (grown / *bound)).then_some(())?;
-    }
+    keeps_digits(leverage * (grown / *bound)).then_some(())?;
     let mut shared = [[T::ZERO; BATCH]; BATCH];
-    let measured = [
-        room.scale_and_measure::<V::Eight, 0>(growth, &mut shared[0])?,
-        room.scale_and_measure::<V::Eight, 1>(growth, &mut shared[1])?,
-        room.scale_and_measure::<V::Eight, 2>(growth, &mut shared[2])?,
-        room.scale_and_measure::<V::Eight, 3>(growth, &mut shared[3])?,
-    ];
+    let measured = room.measure::<V::Eight, GROUP>(growth, &mut shared)?;
     for l in 0..BATCH {
         for m in 0..l {
             let step = errors[m] * measured[m].inverse_variance;
@@ -174,9 +168,9 @@ fn two<T: Real, V: Vector<T>, const GROUP: usize>(
     let n = theta.len();
     let (phi, y) = (&phi[at * n..], &y[at..at + 2]);
     let mut room = along::Room::<T, 2, 4>::of(place.scratch, n);
-    let [first, second] = arrive::<T, V, 2>(phi, n, room.f);
+    arrive::<T, V, 2>(phi, n, room.f);
+    let (predicted, [first, second]) = predict::<T, V, 2>(theta, room.f);
     (!form.leaves_out(first) && !form.leaves_out(second)).then_some(())?;
-    let predicted = predict::<T, V, 2>(theta, room.f);
     room.look::<V, GROUP>(place.columns, place.diagonal);
     let (mut bound, leverage) = (*place.bound, room.leverage::<V::Eight>(1));
 

@@ -13,7 +13,7 @@ pub use add::add_columns;
 pub use chunks::{Long, LongMut};
 pub use dots::{dots, dots_beside};
 pub use eliminate::eliminate;
-pub use rank_one::{turn_columns, Turn};
+pub use rank_one::{change_columns, change_row, RankOne};
 
 use super::layout::{tiles_of, BLOCK};
 use crate::number::eight::Eight;

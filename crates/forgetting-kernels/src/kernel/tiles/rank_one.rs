@@ -7,36 +7,42 @@ use crate::number::vector::Vector;
 use crate::number::Real;
 use core::ops::Range;
 
-/// What a rank-one change of P does to the columns of a block, from the left:
-/// u ← u + slope x and x ← x + factor u, each with the other of before.
+/// A rank-one change of P on a block, column by column from the left: u' = u + slope·x, x' = x + factor·u,
+/// both from the old values.
 ///
-/// x starts with 0 above the first column; Bierman's is the gain.
+/// x is 0 above the first column of U; Bierman's is the gain.
 #[derive(Clone, Copy)]
-pub struct Turn<'a, T> {
+pub struct RankOne<'a, T> {
     pub slope: &'a PerColumn<T>,
     pub factor: &'a PerColumn<T>,
 }
 
-impl<T: Real> Turn<'_, T> {
-    /// The same of a row `w` below the columns, with its x, in all lanes, up to here.
+impl<T: Real> RankOne<'_, T> {
+    /// [`change_row`] with numbers that are in memory.
     #[inline(always)]
-    pub fn turn_row<E: Eight<T>>(&self, w: E, x: &mut E) -> E {
-        let sums = *x + (E::read(self.factor) * w).running_sums();
-        let turned = E::read(self.slope).mul_add(sums.before(*x), w);
-        *x = sums.last();
-        turned
+    pub fn change_row<E: Eight<T>>(&self, w: E, x: &mut E) -> E {
+        change_row(w, (E::read(self.slope), E::read(self.factor)), x)
     }
 }
 
-/// The x of `R` changes.
-pub trait Xs<T: Real, const R: usize> {
+/// The same change of `w`, one row across the block; `x` is carried along, the same in every lane.
+#[inline(always)]
+pub fn change_row<T: Real, E: Eight<T>>(w: E, (slope, factor): (E, E), x: &mut E) -> E {
+    let sums = *x + (factor * w).running_sums();
+    let changed = slope.mul_add(sums.before(*x), w);
+    *x = sums.last();
+    changed
+}
+
+/// The x of `R` changes, which are carried from block to block.
+pub trait Carried<T: Real, const R: usize> {
     /// Beside the tiles of row `t`.
     fn load<V: Vector<T>>(&self, t: usize) -> [V; R];
     /// Puts them back.
     fn store<V: Vector<T>>(&mut self, t: usize, xs: [V; R]);
 }
 
-impl<T: Real> Xs<T, 1> for LongMut<'_, T> {
+impl<T: Real> Carried<T, 1> for LongMut<'_, T> {
     #[inline(always)]
     fn load<V: Vector<T>>(&self, t: usize) -> [V; 1] {
         [V::load(self.chunk(t))]
@@ -47,7 +53,7 @@ impl<T: Real> Xs<T, 1> for LongMut<'_, T> {
     }
 }
 
-impl<T: Real, const R: usize> Xs<T, R> for [[T::Chunk; R]] {
+impl<T: Real, const R: usize> Carried<T, R> for [[T::Chunk; R]] {
     #[inline(always)]
     fn load<V: Vector<T>>(&self, t: usize) -> [V; R] {
         let mut xs = [V::splat(T::ZERO); R];
@@ -64,28 +70,28 @@ impl<T: Real, const R: usize> Xs<T, R> for [[T::Chunk; R]] {
     }
 }
 
-/// Each of `turns` in turn, with its own x of `xs`, for the columns of block `b`.
+/// Each of `changes` in turn, with its own x of `xs`, for the columns of block `b`.
 #[inline(always)]
-pub fn turn_columns<T, V, X, const GROUP: usize, const R: usize>(
+pub fn change_columns<T, V, X, const GROUP: usize, const R: usize>(
     (block, b): (&mut [Tile<T>], usize),
     xs: &mut X,
-    turns: &[Turn<'_, T>; R],
+    changes: &[RankOne<'_, T>; R],
 ) where
     T: Real,
     V: Vector<T>,
-    X: Xs<T, R> + ?Sized,
+    X: Carried<T, R> + ?Sized,
 {
     let all = block.len();
     if GROUP >= 8 && R > 1 {
         // a number in a register serves two tiles
         let single = all % 2;
-        columns::<T, V, X, R, 8, 0, 1>((block, b), 0..single, xs, turns);
-        columns::<T, V, X, R, 8, 0, 2>((block, b), single..all, xs, turns);
+        columns::<T, V, X, R, 8, 0, 1>((block, b), 0..single, xs, changes);
+        columns::<T, V, X, R, 8, 0, 2>((block, b), single..all, xs, changes);
     } else if GROUP >= 8 || R > 2 {
-        columns::<T, V, X, R, 8, 0, 1>((block, b), 0..all, xs, turns);
+        columns::<T, V, X, R, 8, 0, 1>((block, b), 0..all, xs, changes);
     } else {
-        columns::<T, V, X, R, 4, 0, 1>((block, b), 0..all, xs, turns);
-        columns::<T, V, X, R, 4, 4, 1>((block, b), 0..all, xs, turns);
+        columns::<T, V, X, R, 4, 0, 1>((block, b), 0..all, xs, changes);
+        columns::<T, V, X, R, 4, 4, 1>((block, b), 0..all, xs, changes);
     }
 }
 
@@ -95,11 +101,11 @@ fn columns<T, V, X, const R: usize, const C: usize, const FIRST: usize, const W:
     (block, b): (&mut [Tile<T>], usize),
     tiles: Range<usize>,
     xs: &mut X,
-    turns: &[Turn<'_, T>; R],
+    changes: &[RankOne<'_, T>; R],
 ) where
     T: Real,
     V: Vector<T>,
-    X: Xs<T, R> + ?Sized,
+    X: Carried<T, R> + ?Sized,
 {
     // the rows of the diagonal: before their first column x is 0, whatever the buffer holds
     let (last, fresh) = (block.len() - 1, FIRST == 0 && (b * BLOCK).is_multiple_of(T::ROWS));
@@ -112,7 +118,7 @@ fn columns<T, V, X, const R: usize, const C: usize, const FIRST: usize, const W:
             }
         }
         for c in FIRST..FIRST + C {
-            turn_column(tiles, &mut x, turns, c);
+            change_column(tiles, &mut x, changes, c);
         }
         for w in 0..W {
             xs.store(t + w, x[w]);
@@ -123,10 +129,10 @@ fn columns<T, V, X, const R: usize, const C: usize, const FIRST: usize, const W:
 
 /// Column c in `W` tiles.
 #[inline(always)]
-fn turn_column<T: Real, V: Vector<T>, const R: usize, const W: usize>(
+fn change_column<T: Real, V: Vector<T>, const R: usize, const W: usize>(
     tiles: &mut [Tile<T>; W],
     x: &mut [[V; R]; W],
-    turns: &[Turn<'_, T>; R],
+    changes: &[RankOne<'_, T>; R],
     c: usize,
 ) {
     let mut u = [V::splat(T::ZERO); W];
@@ -134,7 +140,7 @@ fn turn_column<T: Real, V: Vector<T>, const R: usize, const W: usize>(
         u[w] = V::load(&tiles[w][c]);
     }
     for r in 0..R {
-        let (slope, factor) = (V::splat(turns[r].slope[c]), V::splat(turns[r].factor[c]));
+        let (slope, factor) = (V::splat(changes[r].slope[c]), V::splat(changes[r].factor[c]));
         for w in 0..W {
             let before = u[w];
             u[w] = slope.mul_add(x[w][r], before);

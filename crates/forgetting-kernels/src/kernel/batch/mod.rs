@@ -19,13 +19,13 @@
 //! lost where a sample before takes most of what w was: not so many that it matters, as long as
 //! rounding fᵀPf with the P of before costs less than the variance of the noise ([`keeps_digits`]).
 
-use super::bierman::{above_floor, largest_of, Chain};
+mod measure;
+
 use super::layout::BLOCK;
 use super::tiles::{
-    block, block_mut, dots_beside, load_eight, padding_d, store_eight, turn_columns, PerColumn,
-    Turn,
+    block, block_mut, change_columns, dots_beside, load_eight, padding_d, store_eight, PerColumn,
+    RankOne,
 };
-use crate::kernel::measured::Measured;
 use crate::number::eight::Eight;
 use crate::number::lane::Lane;
 use crate::number::vector::Vector;
@@ -72,24 +72,24 @@ impl<'a, T: Real> Room<'a, T> {
     }
 
     /// Goes through the columns of U once: changes them and D by what all samples do if they are
-    /// `done`, then finds w of the `next` samples, which are in f, and takes D. Returns the fᵀPf of
-    /// each of those with the P of before them.
+    /// `done`, then finds w of the `next` samples, which are in f, and takes D. Returns at least
+    /// the largest fᵀPf of all but the first of those, with the P of before them.
     #[inline(always)]
     pub fn sweep<V: Vector<T>, const GROUP: usize>(
         &mut self,
         (columns, diagonal): (&mut [T], &mut [T]),
         done: bool,
         next: bool,
-    ) -> PerSample<T> {
+    ) -> T {
         let mut leverages = [V::Eight::splat(T::ZERO); BATCH];
         for (b, (d, changes)) in self.d.iter_mut().zip(&mut *self.changes).enumerate() {
             if done {
                 store_eight(diagonal, b, V::Eight::read(d));
-                let mut turns = [turn(&changes[0]); BATCH];
+                let mut all = [change(&changes[0]); BATCH];
                 for l in 1..BATCH {
-                    turns[l] = turn(&changes[l]);
+                    all[l] = change(&changes[l]);
                 }
-                turn_columns::<T, V, _, GROUP, BATCH>((block_mut(columns, b), b), self.k, &turns);
+                change_columns::<T, V, _, GROUP, BATCH>((block_mut(columns, b), b), self.k, &all);
             }
             if next {
                 let own = load_eight::<T, V::Eight>(diagonal, b, padding_d());
@@ -101,44 +101,16 @@ impl<'a, T: Real> Room<'a, T> {
                 }
             }
         }
-        let mut sums = [T::ZERO; BATCH];
-        for l in 0..BATCH {
-            sums[l] = leverages[l].running_sums().last().numbers()[0];
+        let mut most = leverages[1];
+        for l in 2..BATCH {
+            most = most.max(leverages[l]);
         }
-        sums
-    }
-
-    /// P ← `growth`·P, then P⁻¹ ← P⁻¹ + fᵀf, for sample L after those before it, column by column;
-    /// `shared` becomes f·k of those. None if D falls below its floor.
-    #[inline(always)]
-    pub fn scale_and_measure<E: Eight<T>, const L: usize>(
-        &mut self,
-        growth: T,
-        shared: &mut PerSample<T>,
-    ) -> Option<Measured<T>> {
-        let (factor, zero) = (E::splat(growth), E::splat(T::ZERO));
-        let (mut chain, mut most, mut less_least) = (Chain::start(), zero, -E::splat(T::CEILING));
-        let mut sums = [zero; L];
-        for (d, changes) in self.d.iter_mut().zip(&mut *self.changes) {
-            let mut w = E::read(&changes[L][W_THEN_SLOPE]);
-            for m in 0..L {
-                w = turn(&changes[m]).turn_row(w, &mut sums[m]);
-            }
-            let pass = chain.pass(E::read(d) * factor, w);
-            pass.slope.write(&mut changes[L][W_THEN_SLOPE]);
-            pass.v.write(&mut changes[L][V]);
-            pass.d.write(d);
-            (most, less_least) = (most.max(pass.d), less_least.max(-pass.d));
-        }
-        for m in 0..L {
-            shared[m] = sums[m].numbers()[0];
-        }
-        let measured = chain.measured(largest_of(&most.numbers()), growth > T::ONE);
-        above_floor(less_least).then_some(measured)
+        most.running_sums().last().numbers()[0]
     }
 }
 
+/// What a sample does to the columns of a block.
 #[inline(always)]
-fn turn<T>(changes: &[PerColumn<T>; 2]) -> Turn<'_, T> {
-    Turn { slope: &changes[W_THEN_SLOPE], factor: &changes[V] }
+fn change<T>(changes: &[PerColumn<T>; 2]) -> RankOne<'_, T> {
+    RankOne { slope: &changes[W_THEN_SLOPE], factor: &changes[V] }
 }
