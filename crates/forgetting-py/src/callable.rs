@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 use std::any::Any;
 
-/// What a callable rate or gate is told of a sample, before the sample is used.
+/// What a callable rate or gate judges a sample by, before the sample is used.
 ///
 /// Errors are whitened by gamma; a rate sees them clipped by the weighting. S is phi @ P @ phi.T, whitened, with
 /// the P before forgetting.

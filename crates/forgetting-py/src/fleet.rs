@@ -358,7 +358,7 @@ fn read_mask(mask: &Bound<'_, PyAny>, count: usize) -> PyResult<Vec<bool>> {
     Ok(flat.to_vec()?)
 }
 
-/// What a sample of each stream told: returned by `Fleet.update`. An output that was not asked
+/// What a sample of each stream did: returned by `Fleet.update`. An output that was not asked
 /// for is None.
 ///
 /// Attributes

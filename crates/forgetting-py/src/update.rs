@@ -1,9 +1,9 @@
-//! What one sample told, for Python.
+//! What one sample did, for Python.
 
 use crate::arrays::innovation;
 use pyo3::prelude::*;
 
-/// What one sample told: returned by `RLS.update`.
+/// What one sample did: returned by `RLS.update`.
 ///
 /// Attributes
 /// ----------
