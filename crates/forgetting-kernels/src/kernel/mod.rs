@@ -40,6 +40,7 @@ pub mod agee_turner;
 mod along;
 mod batch;
 mod bierman;
+mod copies;
 pub mod dispatch;
 pub mod eigen;
 pub mod form;

@@ -1,6 +1,6 @@
 //! Samples that arrive together, and what they do to θ.
 
-use super::vectors::{first_of, put_first};
+use super::copies::{first_of, put_first};
 use crate::number::eight::Eight;
 use crate::number::vector::Vector;
 use crate::number::Real;

@@ -1,7 +1,7 @@
 //! The diagonal of P.
 
+use super::copies::put_first;
 use super::layout::place;
-use super::vectors::put_first;
 use crate::kernel::dispatch::Kernel;
 use crate::number::vector::Vector;
 use crate::number::Real;

@@ -1,10 +1,11 @@
 //! Vectors of any length: products and sums.
 
+use super::copies::copy;
 use super::layout::FEW;
 use crate::kernel::dispatch::Kernel;
 use crate::number::lane::Lane;
 use crate::number::vector::Vector;
-use crate::number::{copy_first, Real};
+use crate::number::Real;
 
 /// Σ aᵢ bᵢ over the shorter of the two.
 pub struct Dot<'a, T> {
@@ -83,41 +84,6 @@ pub fn add_scaled_by<T: Real, V: Vector<T>>(y: &mut [T], c: T, x: &[T]) {
     }
     for (y, &x) in y_rest.iter_mut().zip(x_rest) {
         *y = c.mul_add(x, *y);
-    }
-}
-
-/// Copies as many numbers as both have.
-// not `copy_from_slice`: that is a call, for which all registers are put away
-#[inline(always)]
-pub fn copy<T: Real, V: Vector<T>>(from: &[T], to: &mut [T]) {
-    let ((from, from_rest), (to, to_rest)) = (T::chunks(from), T::chunks_mut(to));
-    for (from, to) in from.iter().zip(to) {
-        V::load(from).store(to);
-    }
-    for (&from, to) in from_rest.iter().zip(to_rest) {
-        *to = from;
-    }
-}
-
-/// As many numbers as a vector has, or fewer and zeros.
-#[inline(always)]
-pub fn first_of<T: Real, V: Vector<T>>(numbers: &[T]) -> V {
-    match T::chunks(numbers).0.first() {
-        Some(chunk) => V::load(chunk),
-        None => V::load(&T::chunk(numbers)),
-    }
-}
-
-/// Writes a vector where there is room for as many numbers, or the first of them.
-#[inline(always)]
-pub fn put_first<T: Real, V: Vector<T>>(to: &mut [T], vector: V) {
-    match T::chunks_mut(to).0.first_mut() {
-        Some(chunk) => vector.store(chunk),
-        None => {
-            let mut chunk = T::chunk(&[]);
-            vector.store(&mut chunk);
-            copy_first(to, chunk.as_ref());
-        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! New eigenvectors as combinations of old ones: the one step that costs O(n³).
 
-use crate::kernel::vectors::{first_of, put_first};
+use crate::kernel::copies::{first_of, put_first};
 use crate::number::vector::Vector;
 use crate::number::Real;
 

@@ -3,11 +3,12 @@
 use super::super::along;
 use super::super::batch::{self, keeps_digits, PerSample, BATCH};
 use super::super::bierman::largest;
+use super::super::copies::copy;
 use super::super::measure::{adds, many as measure};
 use super::super::outcome::Outcome;
 use super::super::together::{arrive, correct, predict};
 use super::super::triangle::leverage_of;
-use super::super::vectors::{add_scaled_by, copy, products};
+use super::super::vectors::{add_scaled_by, products};
 use super::{accepts, Steps};
 use crate::kernel::dispatch::Kernel;
 use crate::kernel::form::Form;

@@ -1,0 +1,4 @@
+//! Sums across the numbers of vectors.
+
+mod pair;
+mod wide;
