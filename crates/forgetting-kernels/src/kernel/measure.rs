@@ -5,7 +5,7 @@ use super::along::Room;
 use super::bierman::{self, largest};
 use super::layout::FEW;
 use super::registers::floor::far_before;
-use super::registers::{Gain, Kept, Small, Unit};
+use super::registers::{Gain, InPlace, Small, Unit};
 use super::vectors::add_scaled_by;
 use crate::kernel::dispatch::Kernel;
 use crate::kernel::form::Form;
@@ -84,7 +84,7 @@ fn few<T: Real, const N: usize>(
     squares: T,
 ) -> Option<Measured<T>> {
     let (f, d) = (f.first_chunk::<N>()?, diagonal.first_chunk_mut::<N>()?);
-    let (mut small, least) = (Small { u: Kept::of::<N>(columns), d: *d }, T::FLOOR);
+    let (mut small, least) = (Small { u: InPlace::of::<N>(columns), d: *d }, T::FLOOR);
     let bounds = &mut Bounds { tight: **bound, kept: bound };
     let (gain, forgot) = match form {
         Form::Scale { growth } => {

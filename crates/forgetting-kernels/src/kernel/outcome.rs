@@ -1,9 +1,9 @@
-//! What a sample of one row and one target told.
+//! What became of a sample of one row and one target.
 
 use crate::kernel::measured::Measured;
 use crate::number::Real;
 
-/// What a sample of one row and one target told.
+/// What became of a sample of one row and one target.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Outcome<T> {
     /// y − φθ with the θ of before

@@ -69,10 +69,10 @@ impl<M: Memory> Factor<M> {
         (phi, y): (&[M::Real], &[M::Real]),
         scratch: &mut [M::Real],
         theta: &mut [M::Real],
-        (told, thetas): (&mut [Outcome<M::Real>], &mut [M::Real]),
+        (outcomes, thetas): (&mut [Outcome<M::Real>], &mut [M::Real]),
     ) -> usize {
         let place = self.place(scratch);
-        M::Real::advance(&mut Steps { place, form, phi, y, theta, told, thetas })
+        M::Real::advance(&mut Steps { place, form, phi, y, theta, outcomes, thetas })
     }
 
     #[inline]

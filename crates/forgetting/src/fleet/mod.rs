@@ -54,8 +54,8 @@ use transfer::Numbers;
 /// for k in 0..50 {
 ///     let x = f64::from(k % 7);
 ///     let (phi, y) = ([1.0, x, 1.0, x, 1.0, x], [x, 1.0 + x, 2.0 + x]);
-///     let told = Outputs { error: None, leverage: None, skipped: None };
-///     let used = fleet.update(Samples { phi: &phi, y: &y, mask: None }, told)?;
+///     let outputs = Outputs { error: None, leverage: None, skipped: None };
+///     let used = fleet.update(Samples { phi: &phi, y: &y, mask: None }, outputs)?;
 ///     assert_eq!(used, 3);
 /// }
 /// assert!((fleet.get(2).theta()[0] - 2.0).abs() < 1e-3);

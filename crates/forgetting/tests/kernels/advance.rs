@@ -104,13 +104,13 @@ fn follow<F: Forgetting<Dynamic<T>>, T: Kernels>(rule: F, n: usize, watched: Wat
     }
     let (mut phi, y) = record::<T>(n, SAMPLES);
     phi[50 * n] = T::from_f64(f64::NAN);
-    let (mut told, mut thetas) = ([Outcome::default(); 17], vec![T::ZERO; 17 * n]);
+    let (mut outcomes, mut thetas) = ([Outcome::default(); 17], vec![T::ZERO; 17 * n]);
     let (mut k, mut windups) = (0, 0u64);
     while k < SAMPLES {
-        let taken = together.update_many(&phi[k * n..], &y[k..], &mut told, &mut thetas);
-        for (told, after) in told[..taken].iter().zip(thetas.chunks(n)) {
+        let taken = together.update_many(&phi[k * n..], &y[k..], &mut outcomes, &mut thetas);
+        for (outcome, after) in outcomes[..taken].iter().zip(thetas.chunks(n)) {
             let one = apart.update(&phi[k * n..(k + 1) * n], &y[k..=k]).unwrap();
-            let many = together.report(told);
+            let many = together.report(outcome);
             assert_eq!(
                 (one.forgetting_factor, one.rank, one.skipped),
                 (many.forgetting_factor, many.rank, many.skipped),

@@ -1,5 +1,5 @@
-//! A long run is taken in one go: the bound of P's trace grows with every sample, and what it is then
-//! too loose to tell is told by the trace itself.
+//! A long run is taken in one go. The bound of P's trace grows with every sample, until it can no longer
+//! rule out that D comes to its floor; the kernel then computes the trace itself and goes on.
 
 use forgetting::{Constant, Dynamic, Equal, Estimator, Exponential, Kernels, Outcome, Prior};
 
@@ -18,9 +18,9 @@ fn stops<T: Kernels>(n: usize) -> usize {
     };
     let phi: Vec<T> = (0..n * SAMPLES).map(number).collect();
     let y: Vec<T> = (0..SAMPLES).map(|k| number(k + 7)).collect();
-    let (mut told, mut k, mut stops) = ([Outcome::default(); 64], 0, 0);
+    let (mut outcomes, mut k, mut stops) = ([Outcome::default(); 64], 0, 0);
     while k < SAMPLES {
-        let taken = estimator.update_many(&phi[k * n..], &y[k..], &mut told, &mut []);
+        let taken = estimator.update_many(&phi[k * n..], &y[k..], &mut outcomes, &mut []);
         if taken == 0 {
             estimator.update(&phi[k * n..(k + 1) * n], &y[k..=k]).unwrap();
         }

@@ -1,4 +1,4 @@
-//! What a few streams told, written where it was asked for.
+//! What became of the samples of a few streams, written where it was asked for.
 
 use super::{Abreast, Fate, LaneOutcome, Line, Outputs, Real, DEAD_ZONE, MISSING, REFUSED};
 use crate::number::copy_first;

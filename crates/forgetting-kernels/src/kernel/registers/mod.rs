@@ -18,7 +18,7 @@ mod chain;
 pub mod floor;
 mod unit;
 
-pub use unit::{Kept, Unit};
+pub use unit::{InPlace, Unit};
 
 /// U above its diagonal, by columns, and D.
 #[derive(Clone, Copy)]

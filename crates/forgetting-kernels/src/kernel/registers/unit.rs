@@ -29,9 +29,9 @@ impl<A: Copy, const N: usize> Unit<A, N> for [[A; N]; N] {
 }
 
 /// Where the factor keeps it: where there are more numbers than registers, a copy gains nothing.
-pub struct Kept<'a, T>(&'a mut [T]);
+pub struct InPlace<'a, T>(&'a mut [T]);
 
-impl<'a, T: Real> Kept<'a, T> {
+impl<'a, T: Real> InPlace<'a, T> {
     /// U of N columns.
     #[inline(always)]
     pub fn of<const N: usize>(columns: &'a mut [T]) -> Self {
@@ -39,7 +39,7 @@ impl<'a, T: Real> Kept<'a, T> {
     }
 }
 
-impl<T: Real, A: One<T>, const N: usize> Unit<A, N> for Kept<'_, T> {
+impl<T: Real, A: One<T>, const N: usize> Unit<A, N> for InPlace<'_, T> {
     #[inline(always)]
     fn get(&self, c: usize, i: usize) -> A {
         A::splat(self.0[place::<T>(i, c)])

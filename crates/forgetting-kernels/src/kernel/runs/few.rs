@@ -3,7 +3,7 @@
 use super::super::bierman::largest;
 use super::super::measure::{along, scale, Bounds};
 use super::super::outcome::Outcome;
-use super::super::registers::{Kept, Small, Unit};
+use super::super::registers::{InPlace, Small, Unit};
 use super::super::vectors::few_products;
 use super::{accepts, Steps};
 use crate::kernel::dispatch::Kernel;
@@ -57,7 +57,7 @@ fn in_place<T: Real, A: One<T>, const N: usize, const ALONG: bool>(
     task: &mut Steps<'_, T>,
 ) -> Option<usize> {
     let d = A::splat_each(task.place.diagonal.first_chunk()?);
-    let u = Kept::of::<N>(core::mem::take(&mut task.place.columns));
+    let u = InPlace::of::<N>(core::mem::take(&mut task.place.columns));
     let mut small = Small { u, d };
     let taken = all::<T, A, _, N, ALONG>(task, &mut small)?;
     *task.place.diagonal.first_chunk_mut()? = A::get_each(&small.d);
@@ -70,7 +70,7 @@ fn all<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const ALONG: bool>(
     small: &mut Small<A, N, U>,
 ) -> Option<usize> {
     let mut theta = A::splat_each(task.theta.first_chunk::<N>()?);
-    let (most, mut taken) = (task.told.len().min(task.y.len()), 0);
+    let (most, mut taken) = (task.outcomes.len().min(task.y.len()), 0);
     let (mut trace, mut tight) = (*task.place.bound, false);
     while taken < most {
         match take::<T, A, U, N, ALONG>(task, taken, small, (&mut theta, &mut trace)) {
@@ -93,12 +93,12 @@ fn take<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const ALONG: bool>(
     small: &mut Small<A, N, U>,
     (theta, trace): (&mut [A; N], &mut T),
 ) -> usize {
-    let Steps { place, form, phi, y, told, thetas, .. } = task;
+    let Steps { place, form, phi, y, outcomes, thetas, .. } = task;
     let mut bounds = Bounds { kept: &mut *place.bound, tight: *trace };
     let mut after = thetas.get_mut(at * N..).unwrap_or_default().as_chunks_mut::<N>().0.iter_mut();
-    let samples = phi[at * N..].as_chunks::<N>().0.iter().zip(&y[at..]).zip(&mut told[at..]);
+    let samples = phi[at * N..].as_chunks::<N>().0.iter().zip(&y[at..]).zip(&mut outcomes[at..]);
     let (mut least, mut taken) = (small.least(), 0);
-    for ((f, &y), told) in samples {
+    for ((f, &y), outcome) in samples {
         let f = A::splat_each(f);
         let (product, squares) = few_products(&f, theta);
         let (error, squares) = (y - product.get(), squares.get());
@@ -106,7 +106,7 @@ fn take<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const ALONG: bool>(
             break;
         }
         if ALONG && form.leaves_out(squares) {
-            *told = left_out(small, error, &f);
+            *outcome = left_out(small, error, &f);
         } else {
             let sample = (&f, squares);
             let gain = match *form {
@@ -126,7 +126,7 @@ fn take<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const ALONG: bool>(
                 theta[i] = step.mul_add(gain.k[i], theta[i]);
             }
             let (leverage, largest) = (gain.s.get(), gain.largest.get());
-            *told = Outcome { error, leverage, largest, forgot, used: true, windup: false };
+            *outcome = Outcome { error, leverage, largest, forgot, used: true, windup: false };
         }
         if let Some(after) = after.next() {
             *after = A::get_each(theta);

@@ -39,7 +39,7 @@ impl<T: Real> Kernel<T> for Many<'_, '_, T> {
 /// that this one may use.
 #[inline(always)]
 fn all<T: Real, V: Vector<T>, const GROUP: usize>(task: &mut Steps<'_, T>) -> usize {
-    let (most, mut taken) = (task.told.len().min(task.y.len()), 0);
+    let (most, mut taken) = (task.outcomes.len().min(task.y.len()), 0);
     while taken < most {
         let several = match task.form {
             Form::Scale { growth } if most - taken >= BATCH => {
@@ -67,7 +67,7 @@ fn single<T: Real, V: Vector<T>, const GROUP: usize>(
     task: &mut Steps<'_, T>,
     at: usize,
 ) -> Option<()> {
-    let Steps { place, form, phi, y, theta, told, .. } = task;
+    let Steps { place, form, phi, y, theta, outcomes, .. } = task;
     let n = theta.len();
     let f = &phi[at * n..(at + 1) * n];
     let (product, squares) = products::<T, V>(f, theta);
@@ -78,11 +78,12 @@ fn single<T: Real, V: Vector<T>, const GROUP: usize>(
     if form.leaves_out(squares) {
         let leverage = leverage_of::<T, V, GROUP>(place.columns, place.diagonal, f);
         let largest = largest(place.diagonal);
-        told[at] = Outcome { error, leverage, largest, forgot: false, used: false, windup: false };
+        outcomes[at] =
+            Outcome { error, leverage, largest, forgot: false, used: false, windup: false };
     } else {
         let measured = measure::<T, V, GROUP>(place, *form, f, squares)?;
         add_scaled_by::<T, V>(theta, error * measured.inverse_variance, &place.scratch[..n]);
-        told[at] = Outcome::used(error, &measured);
+        outcomes[at] = Outcome::used(error, &measured);
     }
     keep::<T, V>(task, at);
     Some(())
@@ -96,8 +97,8 @@ fn batches<T: Real, V: Vector<T>, const GROUP: usize>(
     first: usize,
     growth: T,
 ) -> Option<usize> {
-    let Steps { place, phi, y, theta, told, thetas, .. } = task;
-    let (n, most) = (theta.len(), told.len().min(y.len()));
+    let Steps { place, phi, y, theta, outcomes, thetas, .. } = task;
+    let (n, most) = (theta.len(), outcomes.len().min(y.len()));
     let (mut room, mut at) = (batch::Room::of(place.scratch, n), first);
     let mut steps = [T::ZERO; BATCH];
     loop {
@@ -125,7 +126,7 @@ fn batches<T: Real, V: Vector<T>, const GROUP: usize>(
         };
         for l in 0..BATCH {
             steps[l] = errors[l] * measured[l].inverse_variance;
-            told[at + l] = Outcome::used(errors[l], &measured[l]);
+            outcomes[at + l] = Outcome::used(errors[l], &measured[l]);
         }
         at += BATCH;
     }
@@ -165,7 +166,7 @@ fn two<T: Real, V: Vector<T>, const GROUP: usize>(
     at: usize,
     weight: T,
 ) -> Option<usize> {
-    let Steps { place, form, phi, y, theta, told, thetas } = task;
+    let Steps { place, form, phi, y, theta, outcomes, thetas } = task;
     let n = theta.len();
     let (phi, y) = (&phi[at * n..], &y[at..at + 2]);
     let mut room = along::Room::<T, 2, 4>::of(place.scratch, n);
@@ -194,8 +195,8 @@ fn two<T: Real, V: Vector<T>, const GROUP: usize>(
 
     *place.bound = bound;
     room.carry_out::<V, GROUP>(place.columns, place.diagonal);
-    told[at] = Outcome::used(error, &measured);
-    told[at + 1] = Outcome::used(later, &after);
+    outcomes[at] = Outcome::used(error, &measured);
+    outcomes[at + 1] = Outcome::used(later, &after);
     let steps = [step, later * after.inverse_variance];
     let thetas = thetas.get_mut(at * n..(at + 2) * n).unwrap_or_default();
     correct::<T, V, 2>(theta, &steps, |l, t| room.gain(l, t), thetas);

@@ -26,7 +26,7 @@ pub struct Steps<'a, T> {
     /// θ
     pub theta: &'a mut [T],
     /// one for each sample at most
-    pub told: &'a mut [Outcome<T>],
+    pub outcomes: &'a mut [Outcome<T>],
     /// n numbers a sample, or none: θ after it
     pub thetas: &'a mut [T],
 }
