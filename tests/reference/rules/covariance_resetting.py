@@ -3,14 +3,16 @@
     F = R_k - P_inf^-1 where the criterion is met, else the F of ``rule`` (0 for ``none``)
 
 ``covariance`` is P_inf (a scalar, (n,) or (n, n), positive definite); the criteria are defined in
-``criteria.py``. At a reset nothing else is forgotten; the measurement is that of ``rule`` with
-P_inf in the place of P. Proper iff P_k <= P_inf at every reset (and ``rule`` is proper).
+``criteria.py`` and look at R_k^-1. At a reset nothing else is forgotten; whether the sample is
+used, its measurement and what ``rule`` keeps of it are those with P_inf in the place of P. Proper
+iff P_k <= P_inf at every reset (and ``rule`` is proper).
     published: P_{k+1}^-1 = P_inf^-1 + phi^T phi at a reset, P_k^-1 + phi^T phi otherwise (54)
 """
 
 from __future__ import annotations
 
 import importlib
+from copy import copy
 from dataclasses import replace
 
 from ..gf_rls import Measurement
@@ -44,7 +46,12 @@ class Dense(Rule):
         self.reset = False
 
     def skips(self, step: Step) -> bool:
-        return self.inner.skips(step)
+        criterion = copy(self.criterion)
+        self.reset = criterion.met(replace(step, own=step.covariance))
+        if self.inner.skips(self._inside(step)):
+            return True
+        self.criterion = criterion
+        return False
 
     def _inside(self, step: Step) -> Step:
         if not self.reset:
@@ -54,7 +61,6 @@ class Dense(Rule):
         )
 
     def measurement(self, step: Step, y: Matrix) -> Measurement:
-        self.reset = self.criterion.met(step)
         return self.inner.measurement(self._inside(step), y)
 
     def forgetting(self, step: Step) -> Matrix:

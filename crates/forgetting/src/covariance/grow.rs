@@ -80,16 +80,21 @@ impl<M: Memory> Factor<M> {
             self.tighten();
             bound = self.trace_bound * growth + added;
         }
-        if bound < M::Real::CEILING {
-            self.trace_bound = bound;
+        self.set_bound(bound).inspect_err(|_| self.trace_bound = before)
+    }
+
+    /// Makes room for a P of at most this trace, which is to take the place of P.
+    ///
+    /// # Errors
+    /// [`Error::Range`] when it exceeds [`Real::CEILING`]; P is as it was.
+    #[inline]
+    pub(crate) fn set_bound(&mut self, trace: M::Real) -> Result<(), Error> {
+        if trace < M::Real::CEILING {
+            self.trace_bound = trace;
             return Ok(());
         }
-        self.trace_bound = before;
-        Err(Error::Range {
-            parameter: "covariance (its trace)",
-            value: bound.to_f64(),
-            limit: M::Real::CEILING.to_f64(),
-        })
+        let (value, limit) = (trace.to_f64(), M::Real::CEILING.to_f64());
+        Err(Error::Range { parameter: "covariance (its trace)", value, limit })
     }
 }
 

@@ -158,11 +158,7 @@ impl<M: Memory> Factor<M> {
 
     /// The trace of P, O(n²).
     pub fn trace(&self) -> M::Real {
-        let diagonal = self.diagonal.as_ref();
-        (0..self.parameters()).fold(M::Real::ZERO, |trace, j| {
-            let column = layout::column(self.columns.as_ref(), j);
-            trace + diagonal[j] * column.fold(M::Real::ONE, |sum, u| sum + functions::dot(u, u))
-        })
+        trace(self.columns.as_ref(), self.diagonal.as_ref())
     }
 
     /// P as n x n numbers, written to `dense` (of n² elements, else left alone).
@@ -225,6 +221,14 @@ impl<M: Memory> Factor<M> {
         visitor.reals(self.diagonal.as_mut());
         visitor.reals(core::slice::from_mut(&mut self.trace_bound));
     }
+}
+
+/// The trace of U D Uᵀ for the packed `columns` of U and the elements of D.
+pub(crate) fn trace<T: Kernels>(columns: &[T], diagonal: &[T]) -> T {
+    diagonal.iter().enumerate().fold(T::ZERO, |trace, (j, &d)| {
+        let column = layout::column(columns, j);
+        trace + d * column.fold(T::ONE, |sum, u| sum + functions::dot(u, u))
+    })
 }
 
 /// Shows the numbers of U above the diagonal, column by column.

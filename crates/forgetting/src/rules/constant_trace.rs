@@ -129,6 +129,11 @@ impl<M: Memory> Forgetting<M> for ConstantTrace<M> {
         state.0 = 1;
     }
 
+    fn restart(&self, state: &mut Measured, _: Step<'_, '_, M>) -> Result<Forgotten, Error> {
+        state.0 = 1;
+        Ok(Forgotten::rank(0))
+    }
+
     fn forget(&self, state: &mut Measured, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         if state.0 == 0 {
             state.0 = 1;

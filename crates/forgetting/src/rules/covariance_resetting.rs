@@ -29,9 +29,10 @@
 //!   false alarm comes about once in 40 000 samples, and innovations whose variance suddenly is
 //!   ten times as large are found after 4 to 5 samples on average.
 //!
-//! At a reset the rule still chooses what is measured, and its own state goes on. A sample that
-//! it skips is skipped, and the criterion does not see it, nor one that a gate holds or freezes.
-//! The forgetting factor is the rule's.
+//! At a reset P_∞ is the P that the rule finds: it chooses by it what is measured, and whatever its
+//! state keeps of P starts anew from it; the rest of its state goes on. A sample that it skips is
+//! skipped, and the criterion does not see it, nor one that a gate holds or freezes. The
+//! forgetting factor is the rule's.
 //!
 //! - Proper (A1): if P ≤ P_∞ at every reset and the rule is proper.
 //! - P̄ bounded above without excitation (A2): if the rule's is.
@@ -106,6 +107,8 @@ pub struct CovarianceResetting<M: Memory, F: Forgetting<M> = InnerRule<M>> {
 pub struct Resetting<M: Memory, S> {
     rule: S,
     watch: Watch<M>,
+    /// not state: P before a reset, put back if the sample is not used
+    before: Factor<M>,
 }
 
 impl<M: Memory, S: State<M::Real>> State<M::Real> for Resetting<M, S> {
@@ -159,7 +162,8 @@ impl<M: Memory, F: Forgetting<M>> Forgetting<M> for CovarianceResetting<M, F> {
     }
 
     fn start(&self, memory: M) -> Self::State {
-        Resetting { rule: self.rule.start(memory), watch: Watch::new(memory) }
+        let before = self.covariance.clone();
+        Resetting { rule: self.rule.start(memory), watch: Watch::new(memory), before }
     }
 
     fn is_bounded(&self) -> bool {
@@ -173,29 +177,40 @@ impl<M: Memory, F: Forgetting<M>> Forgetting<M> for CovarianceResetting<M, F> {
     #[inline]
     fn forget(&self, state: &mut Self::State, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         let Step { factor, sample, forgetting_factor, work } = step;
-        let progress = state.watch.look(&self.criterion, factor, sample, work.first.as_mut());
-        let inner = Step { factor: &mut *factor, sample, forgetting_factor, work };
-        let forgotten = forget_between(&self.rule, &mut state.rule, inner)?;
-        if forgotten.skipped.is_some() {
-            return Ok(forgotten);
+        let Resetting { rule: inner, watch, before } = state;
+        let progress = watch.look(&self.criterion, factor, sample, work.first.as_mut());
+        if progress.met {
+            before.copy_from(factor);
+            factor.copy_from(&self.covariance);
         }
-        state.watch.remember(progress);
+        let step = Step { factor: &mut *factor, sample, forgetting_factor, work };
+        let done = act(&self.rule, inner, step, progress.met);
+        let used = matches!(done, Ok(Forgotten { skipped: None, .. }));
+        if used {
+            watch.remember(progress);
+        }
         if !progress.met {
-            return Ok(forgotten);
+            return done;
         }
-        factor.copy_from(&self.covariance);
-        Ok(Forgotten { rank: factor.parameters(), ..forgotten })
+        factor.copy_from(if used { &self.covariance } else { before });
+        let rank = if used { factor.parameters() } else { 0 };
+        Ok(Forgotten { rank, ..done? })
     }
 }
 
 /// Not inlined: any rule may be in here, beside any rule around it.
 #[inline(never)]
-fn forget_between<M: Memory, F: Forgetting<M>>(
+fn act<M: Memory, F: Forgetting<M>>(
     rule: &F,
     state: &mut F::State,
     step: Step<'_, '_, M>,
+    restart: bool,
 ) -> Result<Forgotten, Error> {
-    rule.forget(state, step)
+    if restart {
+        rule.restart(state, step)
+    } else {
+        rule.forget(state, step)
+    }
 }
 
 /// The parameters of the inner rule, to be shown.

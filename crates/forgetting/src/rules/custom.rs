@@ -199,6 +199,10 @@ impl<M: Memory, C: ForgettingMatrix<M::Real>> Forgetting<M> for Custom<M, C> {
         Buffers { information: memory.square(), matrix: memory.square() }
     }
 
+    fn restart(&self, _: &mut Buffers<M>, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
+        Ok(Forgotten::rank(step.factor.parameters()))
+    }
+
     fn forget(&self, state: &mut Buffers<M>, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         let n = step.factor.parameters();
         let (information, matrix) = (state.information.as_mut(), state.matrix.as_mut());

@@ -112,9 +112,31 @@ impl<M: Memory> Efra<M> {
         })
     }
 
+    /// Takes note of what this sample adds to P, and gives it its noise.
+    fn weigh(&self, state: &mut Pending<M>, step: Step<'_, '_, M>) {
+        let (one, lambda) = (M::Real::ONE, step.forgetting_factor);
+        let Pending { spectrum, added } = state;
+        added.as_mut().fill(M::Real::ZERO);
+        if lambda >= one {
+            return;
+        }
+        let growth = (one - lambda) / lambda;
+        spectrum.renew(step.factor);
+        for (added, &r) in added.as_mut().iter_mut().zip(spectrum.information()) {
+            let p = one / r;
+            *added = (growth * p + self.increase - self.saturation * p * p).max(M::Real::ZERO);
+        }
+        let leverage = step.factor.leverage(step.sample.row(0));
+        let noise = one / self.gain + leverage * (one / self.gain - one);
+        if noise != one {
+            step.sample.scale(one / noise.sqrt());
+        }
+    }
+
     /// Refuses a forgetting factor so small that P could leave the range at the next sample.
     #[inline]
-    fn check_growth(&self, growth: M::Real, n: usize) -> Result<(), Error> {
+    fn check_growth(&self, lambda: M::Real, n: usize) -> Result<(), Error> {
+        let growth = (M::Real::ONE - lambda) / lambda;
         let four = M::Real::from_f64(4.0);
         let most = self.increase + growth * (growth / (four * self.saturation));
         let limit = M::Real::CEILING / (four * M::Real::from_f64(n as f64));
@@ -153,11 +175,28 @@ impl<M: Memory> Forgetting<M> for Efra<M> {
         Bounds { below: None, above: positive(self.increase.to_f64() + grown) }
     }
 
-    fn forget(&self, state: &mut Pending<M>, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
-        let (lambda, n) = (step.forgetting_factor, step.factor.parameters());
-        let growth = (M::Real::ONE - lambda) / lambda;
-        self.check_growth(growth, n)?;
-        let Pending { spectrum, added } = state;
+    fn restart(&self, state: &mut Pending<M>, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
+        self.check_growth(step.forgetting_factor, step.factor.parameters())?;
+        self.weigh(state, step);
+        Ok(Forgotten::rank(0))
+    }
+
+    fn forget(
+        &self,
+        state: &mut Pending<M>,
+        mut step: Step<'_, '_, M>,
+    ) -> Result<Forgotten, Error> {
+        self.check_growth(step.forgetting_factor, step.factor.parameters())?;
+        let rank = state.add(&mut step)?;
+        self.weigh(state, step);
+        Ok(Forgotten::rank(rank))
+    }
+}
+
+impl<M: Memory> Pending<M> {
+    /// Adds to P what the last sample adds; returns the number of directions.
+    fn add(&mut self, step: &mut Step<'_, '_, M>) -> Result<usize, Error> {
+        let Self { spectrum, added } = self;
         let total = added.as_ref().iter().fold(M::Real::ZERO, |sum, &x| sum + x);
         let mut rank = 0;
         if total > M::Real::ZERO {
@@ -170,20 +209,7 @@ impl<M: Memory> Forgetting<M> for Efra<M> {
                 }
             }
         }
-        added.as_mut().fill(M::Real::ZERO);
-        if lambda < M::Real::ONE {
-            spectrum.renew(step.factor);
-            for (added, &r) in added.as_mut().iter_mut().zip(spectrum.information()) {
-                let p = M::Real::ONE / r;
-                *added = (growth * p + self.increase - self.saturation * p * p).max(M::Real::ZERO);
-            }
-            let (one, leverage) = (M::Real::ONE, step.factor.leverage(step.sample.row(0)));
-            let noise = one / self.gain + leverage * (one / self.gain - one);
-            if noise != one {
-                step.sample.scale(one / noise.sqrt());
-            }
-        }
-        Ok(Forgotten::rank(rank))
+        Ok(rank)
     }
 }
 

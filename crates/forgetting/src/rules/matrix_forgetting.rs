@@ -207,6 +207,15 @@ impl<M: Memory> Forgetting<M> for MatrixForgetting<M> {
         spectrum.learn_rows(step.sample.regressors());
     }
 
+    fn restart(
+        &self,
+        spectrum: &mut Spectrum<M>,
+        step: Step<'_, '_, M>,
+    ) -> Result<Forgotten, Error> {
+        spectrum.discard();
+        Ok(Forgotten::rank(step.factor.parameters()))
+    }
+
     #[inline]
     fn forget(
         &self,

@@ -125,6 +125,19 @@ pub trait Forgetting<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
         let _ = (state, step);
     }
 
+    /// Takes a sample before which P was replaced, by the one in `step`: chooses what is measured of
+    /// it, as [`Forgetting::forget`] would, and takes from this P whatever the state keeps of P.
+    /// Nothing is forgotten: the caller puts P back afterwards, or on an error.
+    ///
+    /// The default forgets, which is right where the state keeps nothing of P.
+    ///
+    /// # Errors
+    /// Those of [`Forgetting::forget`]; then the state has not changed.
+    #[inline]
+    fn restart(&self, state: &mut Self::State, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
+        self.forget(state, step)
+    }
+
     /// Forgets. Changes P, may rotate, scale or drop rows of the sample.
     ///
     /// # Errors
@@ -140,6 +153,8 @@ registry! {
         fn form(&self, forgetting_factor: M::Real) -> Option<Form<M::Real>>;
         #[inline(never)]
         fn follow(&self, state: &mut State, step: Step<'_, '_, M>);
+        #[inline(never)]
+        fn restart(&self, state: &mut State, step: Step<'_, '_, M>) -> Result<Forgotten, Error>;
         // not into every update: it is all the rules there are
         #[inline(never)]
         fn forget(&self, state: &mut State, step: Step<'_, '_, M>) -> Result<Forgotten, Error>;

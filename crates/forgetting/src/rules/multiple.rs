@@ -32,7 +32,7 @@ use crate::choice::{
     About, Guarantee, Guarantees, Input, Kind, Parameter, Range, Setting, Value, Values,
 };
 use crate::memory::state::{State, Visitor, is_finite};
-use crate::covariance::Factor;
+use crate::covariance::{trace, Factor};
 use crate::error::Error;
 use crate::memory::Memory;
 use crate::sample::Sample;
@@ -151,6 +151,16 @@ impl<M: Memory> Multiple<M> {
         })
     }
 
+    /// The trace of P̄: that of each block, divided by its λ.
+    fn discounted_trace(&self, state: &BlockFactors<M>) -> M::Real {
+        let mut offset = 0;
+        self.blocks().fold(M::Real::ZERO, |sum, (start, size, lambda)| {
+            let columns = &state.columns.as_ref()[offset..];
+            offset += length::<M::Real>(size);
+            sum + trace(columns, &state.diagonal.as_ref()[start..start + size]) / lambda
+        })
+    }
+
     /// Takes the blocks of the first P.
     fn start_once(&self, state: &mut BlockFactors<M>, factor: &Factor<M>) {
         if state.started == 0 {
@@ -194,6 +204,13 @@ pub struct BlockFactors<M: Memory> {
 }
 
 impl<M: Memory> BlockFactors<M> {
+    /// Back to before the first sample.
+    fn clear(&mut self) {
+        self.columns.as_mut().fill(M::Real::ZERO);
+        self.diagonal.as_mut().fill(M::Real::ZERO);
+        self.started = 0;
+    }
+
     /// R_bb⁻¹ = (B Bᵀ)⁻¹ with B the rows D^(−1/2)U⁻¹e_i of the block: when q_t = Σ_u U_ut B_u are
     /// the rows made orthogonal one after the other, D_t = 1/‖q_t‖².
     fn start_block(&mut self, factor: &Factor<M>, start: usize, size: usize, offset: usize) {
@@ -265,16 +282,30 @@ impl<M: Memory> Forgetting<M> for Multiple<M> {
         }
     }
 
+    fn restart(
+        &self,
+        state: &mut BlockFactors<M>,
+        step: Step<'_, '_, M>,
+    ) -> Result<Forgotten, Error> {
+        state.clear();
+        Ok(Forgotten::rank(step.factor.parameters()))
+    }
+
     #[inline]
     fn forget(
         &self,
         state: &mut BlockFactors<M>,
         step: Step<'_, '_, M>,
     ) -> Result<Forgotten, Error> {
-        let least = self.blocks().fold(M::Real::ONE, |least, (_, _, lambda)| least.min(lambda));
-        // R_bb⁻¹ ≤ P_bb, so that P̄ is at most P/λ of the smallest λ
-        step.factor.reserve(M::Real::ONE / least, M::Real::ZERO)?;
+        let fresh = state.started == 0;
         self.start_once(state, step.factor);
+        // of the blocks themselves: what rounding made of P says nothing of them
+        if let Err(error) = step.factor.set_bound(self.discounted_trace(state)) {
+            if fresh {
+                state.clear();
+            }
+            return Err(error);
+        }
         step.factor.clear_columns();
         let mut offset = 0;
         for (start, size, lambda) in self.blocks() {

@@ -105,6 +105,11 @@ impl<M: Memory> Forgetting<M> for Restricted<M> {
         }
     }
 
+    fn restart(&self, pending: &mut Pending<M>, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
+        pending.keep(step.sample, step.forgetting_factor);
+        Ok(Forgotten::rank(0))
+    }
+
     #[inline]
     fn forget(&self, pending: &mut Pending<M>, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         let rank = pending.forget(step.factor, step.work)?;

@@ -180,6 +180,15 @@ impl<M: Memory> Forgetting<M> for VariableDirection<M> {
         }
     }
 
+    fn restart(
+        &self,
+        spectrum: &mut Spectrum<M>,
+        step: Step<'_, '_, M>,
+    ) -> Result<Forgotten, Error> {
+        spectrum.discard();
+        Ok(Forgotten::rank(step.factor.parameters()))
+    }
+
     #[inline]
     fn forget(
         &self,

@@ -24,6 +24,8 @@ pub enum Item {
     Word(&'static str),
     /// rows and elements
     Matrix(usize, Vec<f64>, fn(&[f64], usize) -> f64),
+    /// a rule with values of its own, none of them a matrix
+    Rule(&'static str, Given),
 }
 
 impl std::fmt::Debug for Item {
@@ -32,6 +34,7 @@ impl std::fmt::Debug for Item {
             Self::Real(x) => write!(f, "{x:?}"),
             Self::Word(word) => f.write_str(word),
             Self::Matrix(rows, elements, _) => write!(f, "{rows} rows of {elements:?}"),
+            Self::Rule(name, given) => write!(f, "{name} {:?}", given.0),
         }
     }
 }
@@ -78,7 +81,19 @@ impl Values for Found<'_> {
                 columns: elements.len() / rows,
                 elements: &self.functions[position],
             },
+            Item::Rule(name, given) => Value::Choice { name, values: given },
         })
+    }
+}
+
+impl Values for Given {
+    fn get(&self, name: &str) -> Option<Value<'_>> {
+        let (_, item) = self.0.iter().find(|(known, _)| *known == name)?;
+        match item {
+            Item::Real(x) => Some(Value::Real(*x)),
+            Item::Word(word) => Some(Value::Word(word)),
+            Item::Matrix(..) | Item::Rule(..) => None,
+        }
     }
 }
 
@@ -180,6 +195,54 @@ pub fn sample_in(parameter: &Parameter) -> f64 {
 pub fn rules() -> impl Iterator<Item = Subject> {
     let known = RULES.iter().filter(|about| can_be_given(about));
     known.map(|about| Subject { about, given: required(about) })
+}
+
+/// The next two values above the default of each whole-numbered parameter, one at a time: with
+/// some, a rule keeps a state that it does not keep by default.
+fn variants(plain: &Subject) -> Vec<Subject> {
+    let memory = Dynamic::<f64>::new(3, 1, 1).unwrap();
+    let whole = plain.about.parameters.iter().filter(|p| p.kind == Kind::Whole);
+    let values = whole.flat_map(|parameter| {
+        let first = match parameter.default {
+            Some(Value::Real(default)) => default,
+            _ => 0.0,
+        };
+        [1.0, 2.0].map(|more| (parameter.name, Item::Real(first + more)))
+    });
+    let subjects = values.map(|value| {
+        let mut subject = plain.clone();
+        subject.given.0.push(value);
+        subject
+    });
+    subjects.filter(|subject| subject.rule(memory).is_ok()).collect()
+}
+
+/// Every rule that goes around others, around every rule with its defaults and with every choice
+/// of its parameters that makes it keep a state, at resets that come often.
+pub fn pairs() -> Vec<Subject> {
+    let memory = Dynamic::<f64>::new(3, 1, 1).unwrap();
+    let mut pairs = Vec::new();
+    for around in rules() {
+        let parameters = around.about.parameters;
+        let Some(place) = parameters.iter().find(|p| p.kind == Kind::Rule) else { continue };
+        for inner in rules().flat_map(|plain| {
+            let mut all = variants(&plain);
+            all.push(plain);
+            all
+        }) {
+            for (period, covariance) in [(2.0, 0.3), (3.0, 1e3), (7.0, 100.0)] {
+                let mut pair = around.clone();
+                let rule = Item::Rule(inner.about.name, inner.given.clone());
+                pair.given.0.extend([(place.name, rule), ("criterion", Item::Word("period"))]);
+                pair.given.0.push(("period", Item::Real(period)));
+                pair.given.0.push(("covariance", Item::Real(covariance)));
+                if !matches!(pair.rule(memory), Err(Error::Unknown { .. })) {
+                    pairs.push(pair);
+                }
+            }
+        }
+    }
+    pairs
 }
 
 /// Every rule with its defaults, with each of its words and around each rule.

@@ -1,6 +1,7 @@
 //! The bound of P's trace, from which overflow is foreseen, bounds it after every sample.
 
-use crate::subjects::{subjects, update, Subject};
+use crate::subjects::{pairs, subjects, update, Given, Item, Subject};
+use forgetting::rules::RULES;
 use forgetting::state::Visitor;
 use forgetting::Factor;
 use forgetting::Outcome;
@@ -97,6 +98,44 @@ fn check<T: Kernels>(subject: &Subject, trial: &Trial, in_one_go: usize) {
     }
 }
 
+/// Blocks of very different sizes and factors, which the plain subjects do not have.
+fn unlike_blocks() -> Vec<Subject> {
+    let given = |factors: [f64; 2]| {
+        let blocks = ("blocks", Item::matrix(1, &[1.0, 5.0]));
+        Given(vec![blocks, ("factors", Item::matrix(1, &factors))])
+    };
+    let of_blocks = |name| RULES.iter().find(|about| about.name == name).unwrap();
+    ["multiple", "component"]
+        .into_iter()
+        .flat_map(|name| [[1e-6, 1e-6], [0.9, 1e-9], [1e-3, 1.0]].map(|factors| (name, factors)))
+        .map(|(name, factors)| Subject { about: of_blocks(name), given: given(factors) })
+        .collect()
+}
+
+/// Regressors along one direction, of every size that can be used: what rounding leaves of P is
+/// then far from what a rule with a memory of its own keeps.
+fn one_direction() -> impl Strategy<Value = Trial> {
+    let sizes = prop::collection::vec(-140.0..70.0f64, 1..120);
+    let base = prop::collection::vec(-1.0..1.0f64, 6);
+    (base, sizes, -0.1..0.1f64).prop_map(|(base, sizes, variance)| Trial {
+        sizes: (6, 1),
+        variance,
+        forgetting_factor: 1e-6,
+        regressors: sizes
+            .iter()
+            .map(|&size| base.iter().map(|x| x * 10f64.powf(size)).collect())
+            .collect(),
+    })
+}
+
+#[test]
+fn there_are_pairs_with_every_state() {
+    let names: Vec<_> = pairs().iter().map(|pair| format!("{pair:?}")).collect();
+    for inner in ["multiple []", "\"power\", 3", "\"choice\", 2", "variable_direction []"] {
+        assert!(names.iter().any(|name| name.contains(inner)), "{inner}: {names:?}");
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 300, rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() })]
 
@@ -105,6 +144,30 @@ proptest! {
         for subject in subjects() {
             check::<f64>(&subject, &trial, 0);
             check::<f32>(&subject, &trial, 0);
+        }
+    }
+
+    #[test]
+    fn the_trace_of_pairs_stays_below_its_bound(trial in trial(2..=10, 1..=3)) {
+        for pair in pairs() {
+            check::<f64>(&pair, &trial, 0);
+            check::<f32>(&pair, &trial, 0);
+        }
+    }
+
+    #[test]
+    fn the_trace_of_unlike_blocks_stays_below_its_bound(trial in trial(6..=6, 1..=2)) {
+        for subject in unlike_blocks() {
+            check::<f64>(&subject, &trial, 0);
+            check::<f32>(&subject, &trial, 0);
+        }
+    }
+
+    #[test]
+    fn the_trace_along_one_direction_stays_below_its_bound(trial in one_direction()) {
+        for subject in unlike_blocks().iter().chain(&subjects()) {
+            check::<f64>(subject, &trial, 0);
+            check::<f32>(subject, &trial, 0);
         }
     }
 

@@ -96,6 +96,11 @@ impl<M: Memory> Spectrum<M> {
         self.sort();
     }
 
+    /// Forgets the spectrum: P was replaced, and it is computed from P when it is next needed.
+    pub fn discard(&mut self) {
+        self.age = 0;
+    }
+
     /// φ V: the components of the n numbers `row` along the eigenvectors.
     pub fn project(&self, row: &[M::Real], components: &mut [M::Real]) {
         let n = self.memory.parameters();
