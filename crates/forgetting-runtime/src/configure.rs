@@ -4,7 +4,7 @@ use crate::choice::Choice;
 use crate::error::Error;
 use crate::function::{for_gate, for_rate, for_rule};
 use crate::number::{Number, View};
-use crate::settings::{Settings, INITIAL_COVARIANCE};
+use crate::settings::Settings;
 use forgetting::gates::{AnyGate, GATES};
 use forgetting::rates::{AnyRate, RATES};
 use forgetting::rules::{Rule, RULES};
@@ -74,7 +74,7 @@ fn prior<T: Number>(
     covariance: Option<View<'_>>,
 ) -> Result<Prior<Dynamic<T>>, Error> {
     let Some(covariance) = covariance else {
-        return Ok(Prior::scalar(memory, T::from_f64(INITIAL_COVARIANCE))?);
+        return Ok(Prior::of_data(memory));
     };
     let numbers = T::read(covariance.numbers());
     Ok(match (covariance.shape().len(), &*numbers) {

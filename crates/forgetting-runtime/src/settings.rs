@@ -10,8 +10,6 @@ use forgetting::Dynamic;
 const RULE: &str = "subspace";
 /// λ when none is given, of a rule that uses it.
 const FORGETTING_FACTOR: f64 = 0.99;
-/// P₀ / I when none is given.
-pub(crate) const INITIAL_COVARIANCE: f64 = 100.0;
 /// The most threads that can be asked for.
 const MOST_THREADS: i64 = 1024;
 
@@ -76,7 +74,8 @@ pub struct Settings<'a> {
     pub weighting: Option<Choice>,
     /// whether a sample is used; always, if not given
     pub gate: Option<Choice>,
-    /// P₀, (), (n,) or (n, n), positive definite, in units of 1/φ²; 100 I if not given
+    /// P₀, (), (n,) or (n, n), positive definite, in units of 1/φ²; [`Prior::of_data`](forgetting::Prior::of_data) if
+    /// not given
     pub initial_covariance: Option<View<'a>>,
     /// θ₀, (n,) or (n, m); 0 if not given
     pub initial_theta: Option<View<'a>>,

@@ -19,6 +19,8 @@ extern crate alloc;
 #[cfg(test)]
 extern crate std;
 
+#[cfg(feature = "alloc")]
+pub mod bank;
 pub mod choice;
 pub mod covariance;
 mod error;
@@ -27,6 +29,7 @@ mod estimator;
 pub mod fleet;
 pub mod gates;
 pub mod memory;
+pub mod mixers;
 pub mod monitor;
 pub mod rates;
 pub mod rules;
@@ -36,12 +39,13 @@ pub mod saved;
 
 #[cfg(test)]
 mod testing;
+mod units;
 pub mod weightings;
 
 #[cfg(feature = "alloc")]
 pub use choice::function;
 pub use choice::parameter;
-pub use covariance::{Factor, Prior};
+pub use covariance::{Factor, Prior, DIFFUSE};
 pub use error::Error;
 #[cfg(feature = "alloc")]
 pub use estimator::AnyEstimator;
@@ -62,4 +66,5 @@ pub use weightings::{Equal, Weighting};
 
 /// The choices that make an estimator, each with its registry: what an axis adds to every face
 /// and to the documentation follows from its line here.
-pub const AXES: &[choice::Axis] = &[rules::AXIS, rates::AXIS, weightings::AXIS, gates::AXIS];
+pub const AXES: &[choice::Axis] =
+    &[rules::AXIS, rates::AXIS, weightings::AXIS, gates::AXIS, mixers::AXIS];

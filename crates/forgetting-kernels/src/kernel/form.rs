@@ -17,6 +17,13 @@ pub enum Form<T> {
         /// regressors that are left out
         dead_zone: DeadZone<T>,
     },
+    /// P̄ = shrink·P + noise·I; of at most [`FEW`](super::layout::FEW) parameters
+    Walk {
+        /// at most 1; below that, noise is at least the floor of D
+        shrink: T,
+        /// what each variance grows by
+        noise: T,
+    },
 }
 
 /// Regressors that are too short to count as information.

@@ -93,6 +93,9 @@ fn few<T: Real, const N: usize>(
         Form::Along { weight, .. } => {
             along::<T, T, _, N, true>(&mut small, bounds, weight, (f, squares), least)?
         }
+        Form::Walk { shrink, noise } => {
+            walk::<T, T, _, N, true>(&mut small, bounds, (shrink, noise), (f, squares), least)?
+        }
     };
     *d = small.d;
     scratch[..N].copy_from_slice(&gain.k);
@@ -139,6 +142,22 @@ pub fn along<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const NEAR: bool
     bounds.grow::<NEAR>((T::ONE, c * squares), (least, squares))?;
     let added = (A::splat(c), A::splat(information / weight));
     Some((small.add_and_measure::<T, NEAR>(added, &along, f), true))
+}
+
+/// The same with the same variance added to every parameter.
+#[inline(always)]
+pub fn walk<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const NEAR: bool>(
+    small: &mut Small<A, N, U>,
+    bounds: &mut Bounds<'_, T>,
+    (shrink, noise): (T, T),
+    (f, squares): (&[A; N], T),
+    least: T,
+) -> Option<(Gain<A, N>, bool)> {
+    let added = noise * T::from_f64(N as f64);
+    bounds.grow::<NEAR>((shrink, added), (least * shrink, squares))?;
+    small.walk(A::splat(shrink), A::splat(noise));
+    let gain = small.scale_and_measure::<T, NEAR>(A::splat(T::ONE), f);
+    Some((gain, noise > T::ZERO))
 }
 
 /// Two numbers that are at least the trace of P.
@@ -188,6 +207,8 @@ pub fn many<T: Real, V: Vector<T>, const GROUP: usize>(
             Some(measured) => return Some(measured),
             None => T::ONE,
         },
+        // of few parameters only
+        Form::Walk { .. } => return None,
     };
     make_room(place.bound, growth, T::ZERO)?;
     Some(scale_many::<T, V, GROUP>(place, growth, f))

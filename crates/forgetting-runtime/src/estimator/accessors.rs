@@ -24,10 +24,16 @@ pub(super) fn by_parameter<T: Number>(estimator: &AnyEstimator<T>, numbers: &mut
 }
 
 pub(crate) fn covariance<T: Number>(estimator: &AnyEstimator<T>) -> Array {
-    let n = estimator.factor().parameters();
+    let factor = estimator.factor();
+    let n = factor.parameters();
     let mut dense = vec![T::ZERO; n * n];
-    estimator.factor().reconstruct(&mut dense);
+    factor.reconstruct(&mut dense);
     T::array(dense, &[n, n])
+}
+
+/// s of these 1/s.
+pub(super) fn units<T: Number>(reciprocals: &[T]) -> Array {
+    T::array(reciprocals.iter().map(|&x| T::ONE / x).collect(), &[reciprocals.len()])
 }
 
 pub(super) fn factor<T: Number>(estimator: &AnyEstimator<T>) -> (Array, Array) {

@@ -39,13 +39,15 @@ impl Health {
     pub(crate) fn of<T: Number>(estimator: &AnyEstimator<T>) -> Option<Self> {
         let health = estimator.health()?;
         let shape = [health.direction.len()];
+        let units = estimator.reciprocal_units();
+        let (direction, variance) = express(&health, units);
         let silence = health.since_excited.iter().map(|age| age.to_f64() as i64).collect();
         Some(Self {
             windup: health.windup,
             informed: health.informed,
-            direction: T::array(health.direction.to_vec(), &shape),
-            least_variances: T::array(health.least_variances.to_vec(), &shape),
-            variance: health.variance.to_f64(),
+            direction: T::array(direction, &shape),
+            least_variances: T::array(squared(health.least_variances, units), &shape),
+            variance: variance.to_f64(),
             growth: health.growth.to_f64(),
             since_informed: health.since_informed,
             since_excited: Array { shape: shape.into(), elements: Elements::I64(silence) },
@@ -55,5 +57,30 @@ impl Health {
             correlation: health.correlation.to_f64(),
             weight: health.weight.to_f64(),
         })
+    }
+}
+
+/// The weakest direction and its variance in the units of the user: 1/s is `reciprocals`.
+fn express<T: Number>(
+    health: &forgetting::Health<'_, T>,
+    reciprocals: Option<&[T]>,
+) -> (Vec<T>, T) {
+    let Some(reciprocals) = reciprocals else {
+        return (health.direction.to_vec(), health.variance);
+    };
+    // first so that no square overflows
+    let parts = health.direction.iter().zip(reciprocals).map(|(&x, &r)| x * r);
+    let longest = parts.clone().fold(T::ZERO, |longest, x| longest.max(x.abs()));
+    let direction: Vec<T> = parts.map(|x| x / longest).collect();
+    let length = direction.iter().fold(T::ZERO, |sum, &x| sum + x * x).sqrt();
+    let stretch = longest * length;
+    (direction.iter().map(|&x| x / length).collect(), health.variance * stretch * stretch)
+}
+
+/// Variances in the units of the user.
+fn squared<T: Number>(variances: &[T], reciprocals: Option<&[T]>) -> Vec<T> {
+    match reciprocals {
+        None => variances.to_vec(),
+        Some(reciprocals) => variances.iter().zip(reciprocals).map(|(&v, &r)| v * r * r).collect(),
     }
 }

@@ -15,7 +15,7 @@ use crate::number::{each, make, ByType, Family, Number};
 use crate::number::{Array, NumberType, Numbers, View};
 use crate::settings::Settings;
 use crate::update::{update, Update};
-use accessors::{factor, predict, theta};
+use accessors::{factor, predict, theta, units};
 use forgetting::saved::number_type;
 use forgetting::{AnyEstimator, Memory, Real};
 
@@ -169,16 +169,27 @@ impl Estimator {
         each!(&self.typed, e => covariance(e))
     }
 
+    /// The units s (n,) in which regressors are measured where P₀ follows the data: 1 for a regressor
+    /// that has always been 0. Nothing where P₀ was given.
+    #[must_use]
+    pub fn units(&self) -> Option<Array> {
+        each!(&self.typed, e => e.reciprocal_units().map(units))
+    }
+
     /// U (n, n), unit upper triangular, and the diagonal of D (n,), positive, with P = U D Uᵀ.
     #[must_use]
     pub fn factor(&self) -> (Array, Array) {
         each!(&self.typed, e => factor(e))
     }
 
-    /// The largest and the smallest element of D, in O(n).
+    /// The largest and the smallest element of D, in O(n); where P₀ follows the data, for regressors
+    /// in units that the data chose.
     #[must_use]
     pub fn extremes(&self) -> (f64, f64) {
-        each!(&self.typed, e => (e.factor().largest().to_f64(), e.factor().smallest().to_f64()))
+        each!(&self.typed, e => {
+            let factor = e.own_factor();
+            (factor.largest().to_f64(), factor.smallest().to_f64())
+        })
     }
 
     /// What the watch has found, if there is one.

@@ -31,6 +31,14 @@ impl<M: Memory> Factor<M> {
         self.tighten();
     }
 
+    /// P ← `share`·P with `share` in (0, 1]. O(n). Elements of D that would fall below [`Real::FLOOR`]
+    /// stay there.
+    pub fn shrink(&mut self, share: M::Real) {
+        for j in 0..self.parameters() {
+            self.put_diagonal(j, self.diagonal.as_ref()[j] * share);
+        }
+    }
+
     /// P ← P + c·x·xᵀ with c ≥ 0 for n numbers `x`, which it uses up. O(n²).
     ///
     /// Call [`Factor::reserve`] first, for all that one sample adds.
@@ -62,6 +70,31 @@ impl<M: Memory> Factor<M> {
                 *u = *u * t / s;
             }
             self.put_diagonal(j, self.diagonal.as_ref()[j] * s * s);
+        }
+    }
+
+    /// P ← S·P·S with S = diag(`ratios`), each > 0. O(n²).
+    ///
+    /// # Errors
+    /// [`Error::Range`] when P would leave the range of the number type; P is as it was.
+    pub(crate) fn change_units(&mut self, ratios: &[M::Real]) -> Result<(), Error> {
+        let largest = ratios.iter().fold(M::Real::ZERO, |largest, &r| largest.max(r));
+        self.tighten();
+        self.reserve((largest * largest).max(M::Real::ONE), M::Real::ZERO)?;
+        self.scale_each(ratios);
+        self.tighten();
+        Ok(())
+    }
+
+    /// P ← S·P·S with S = diag(`scale`), to be read and not to be gone on with: it may leave the range.
+    pub(crate) fn express(&mut self, scale: &[M::Real]) {
+        for (j, &s) in scale.iter().enumerate() {
+            for (i, &t) in scale[..j].iter().enumerate() {
+                let u = &mut self.columns.as_mut()[layout::place::<M::Real>(i, j)];
+                *u = *u * t / s;
+            }
+            let d = &mut self.diagonal.as_mut()[j];
+            *d = *d * s * s;
         }
     }
 

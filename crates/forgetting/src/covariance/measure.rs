@@ -52,6 +52,9 @@ impl<M: Memory> Factor<M> {
                 let information = self.information_along(f, &mut scratch[..f.len()]);
                 (M::Real::ONE, weight / information * squares)
             }
+            Form::Walk { shrink, noise } => {
+                (shrink, noise * M::Real::from_f64(self.parameters() as f64))
+            }
         };
         let refused = self.reserve(growth, added);
         self.trace_bound = before;

@@ -11,7 +11,7 @@ mod measure;
 mod prior;
 pub mod spectrum;
 
-pub use prior::Prior;
+pub use prior::{Prior, DIFFUSE};
 
 use crate::error::Error;
 use crate::memory::state::Visitor;

@@ -7,9 +7,17 @@ use crate::memory::state::Visitor;
 use crate::memory::Memory;
 use forgetting_kernels::Real;
 
+/// P₀ of each parameter where nothing is known of it, in units of the root mean square of its regressor.
+///
+/// It weighs a hundred-thousandth of one sample: too little to be seen in an estimate, and enough to
+/// keep what is not yet known from ruining the first predictions.
+pub const DIFFUSE: f64 = 1e5;
+
 /// P₀ as it was given.
 #[derive(Clone, Debug)]
 enum Covariance<M: Memory> {
+    /// `DIFFUSE`·I, in the units of the data
+    OfData,
     Scalar(M::Real),
     Diagonal(M::Vector),
     Dense(Factor<M>),
@@ -24,6 +32,20 @@ pub struct Prior<M: Memory> {
 }
 
 impl<M: Memory> Prior<M> {
+    /// θ₀ = 0 and P₀ that follows the data: [`DIFFUSE`]·I, with each regressor measured in units that
+    /// are chosen as it comes.
+    ///
+    /// No prediction then depends on the units of φ or y, and all that a rule, a rate or a gate is
+    /// told of P, R or φ is a pure number.
+    pub fn of_data(memory: M) -> Self {
+        Self { memory, theta: memory.theta(), covariance: Covariance::OfData }
+    }
+
+    /// Whether P₀ follows the data.
+    pub fn is_of_data(&self) -> bool {
+        matches!(self.covariance, Covariance::OfData)
+    }
+
     /// θ₀ = 0 and P₀ = `variance`·I.
     ///
     /// # Errors
@@ -85,6 +107,7 @@ impl<M: Memory> Prior<M> {
     /// P₀.
     pub fn factor(&self) -> Factor<M> {
         match &self.covariance {
+            Covariance::OfData => Factor::of(self.memory, |_| M::Real::from_f64(DIFFUSE)),
             Covariance::Scalar(variance) => Factor::of(self.memory, |_| *variance),
             Covariance::Diagonal(variances) => Factor::of(self.memory, |i| variances.as_ref()[i]),
             Covariance::Dense(factor) => factor.clone(),
@@ -99,12 +122,13 @@ impl<M: Memory> Prior<M> {
     }
 
     #[cfg(feature = "alloc")]
-    /// How P₀ was given: 0 a scalar, 1 a diagonal, 2 a matrix.
+    /// How P₀ was given: 0 a scalar, 1 a diagonal, 2 a matrix, 3 not at all.
     pub(crate) fn form(&self) -> u8 {
         match self.covariance {
             Covariance::Scalar(_) => 0,
             Covariance::Diagonal(_) => 1,
             Covariance::Dense(_) => 2,
+            Covariance::OfData => 3,
         }
     }
 
@@ -115,6 +139,7 @@ impl<M: Memory> Prior<M> {
             0 => Covariance::Scalar(M::Real::ONE),
             1 => Covariance::Diagonal(memory.vector()),
             2 => Covariance::Dense(Factor::scalar(memory, M::Real::ONE)?),
+            3 => Covariance::OfData,
             _ => return Err(Error::State { reason: "an unknown form of the initial covariance" }),
         };
         Ok(Self { memory, theta: memory.theta(), covariance })
@@ -125,6 +150,7 @@ impl<M: Memory> Prior<M> {
     pub(crate) fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
         visitor.reals(self.theta.as_mut());
         match &mut self.covariance {
+            Covariance::OfData => {}
             Covariance::Scalar(variance) => visitor.reals(core::slice::from_mut(variance)),
             Covariance::Diagonal(variances) => visitor.reals(variances.as_mut()),
             Covariance::Dense(factor) => factor.visit(visitor),

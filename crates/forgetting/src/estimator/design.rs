@@ -1,6 +1,6 @@
 //! What an estimator is made of. It never changes while samples come.
 
-use super::{Estimator, EstimatorState};
+use super::state::RecursionState;
 use crate::covariance::{Factor, Prior};
 use crate::gates::{AnyGate, Gate};
 use crate::memory::Memory;
@@ -10,6 +10,9 @@ use crate::rules::Forgetting;
 use crate::weightings::Weighting;
 use forgetting_kernels::kernel::form::Form;
 use forgetting_kernels::Real;
+
+/// See [`Estimator::WINDUP`](super::Estimator::WINDUP).
+pub(super) const WINDUP: f64 = 10.0;
 
 /// Rule, rate, weighting, gate and prior, and what follows from them.
 #[derive(Clone, Debug)]
@@ -49,7 +52,7 @@ where
             .filter(|_| plain)
             .map(|lambda| lambda.max(M::Real::EPSILON))
             .and_then(|lambda| rule.form(lambda).map(|form| Steady { lambda, form }));
-        let windup = M::Real::from_f64(Estimator::<F, R, W, M>::WINDUP);
+        let windup = M::Real::from_f64(WINDUP);
         let windup_limit = windup * prior.factor().largest();
         Self { rule, rate, weighting, gate, prior, steady, windup_limit }
     }
@@ -60,9 +63,9 @@ where
     }
 
     /// The state before the first sample.
-    pub fn start(&self, monitored: bool) -> EstimatorState<F, R, M> {
+    pub fn start(&self, monitored: bool) -> RecursionState<F, R, M> {
         let (memory, factor) = (self.prior.memory(), self.prior.factor());
-        EstimatorState {
+        RecursionState {
             monitor: monitored.then(|| self.monitor(&factor)),
             theta: self.prior.theta().clone(),
             rule: self.rule.start(memory),

@@ -1,39 +1,32 @@
 //! Many samples in one call, where there is nothing to do but to forget, measure and correct.
 
 use super::design::Steady;
+use super::recursion::{Numbers, Recursion, Report};
+use super::state::RecursionState;
 use super::steps::forgotten;
-use super::{Estimator, EstimatorState};
 use crate::memory::Memory;
 use crate::rates::Rate;
 use crate::rules::{Forgetting, Forgotten};
-use crate::sample::{Answer, Skip, Update, Whitened};
+use crate::sample::{Answer, Skip};
 use crate::weightings::Weighting;
 use forgetting_kernels::kernel::outcome::Outcome;
 use forgetting_kernels::kernel::watch::Observations;
 use forgetting_kernels::Real;
 
-impl<F, R, W, M> Estimator<F, R, W, M>
+impl<F, R, W, M> Recursion<F, R, W, M>
 where
     F: Forgetting<M>,
     R: Rate<M>,
     W: Weighting<M>,
     M: Memory,
 {
-    /// Whether [`Estimator::update_many`] takes samples at all: a sample is forgotten, measured and
-    /// corrected, and nothing else is to be done with it.
+    /// Whether a sample is forgotten, measured and corrected, and nothing else is to be done with it.
     #[inline]
     pub fn takes_many(&self) -> bool {
         self.design.steady.is_some() && !self.buffers.diagnostics.keeps_prior()
     }
 
-    /// Takes samples of n numbers `phi` and one number `y` each, in one call; writes what became of
-    /// each to `outcomes` and returns how many it took, at most as many as there are outcomes.
-    ///
-    /// It takes none where there is more to do than to forget, measure and correct (a variable
-    /// rate, a gate, several rows, …), and stops before a sample that it cannot use:
-    /// [`Estimator::update`] takes that one, or says what is wrong with it. The result is that of
-    /// one update a sample: bit for bit up to ten parameters, to rounding above. `thetas` is empty,
-    /// or has room for n numbers a sample: θ after it.
+    /// See [`Estimator::update_many`](super::Estimator::update_many).
     #[inline]
     pub fn update_many(
         &mut self,
@@ -58,26 +51,15 @@ where
         taken
     }
 
-    /// What an update would have reported of a sample that [`Estimator::update_many`] took.
+    /// What an update would have reported of a sample that [`Recursion::update_many`] took.
     #[inline]
-    pub fn report<'a>(&self, outcome: &'a Outcome<M::Real>) -> Update<'a, M::Real> {
-        self.report_of(core::slice::from_ref(&outcome.error), outcome)
-    }
-
-    /// The same with the error where it is stored.
-    #[inline]
-    pub(super) fn report_of<'a>(
-        &self,
-        error: &'a [M::Real],
-        outcome: &Outcome<M::Real>,
-    ) -> Update<'a, M::Real> {
+    pub fn report_of(&self, outcome: &Outcome<M::Real>) -> Report<M::Real> {
         let n = self.design.prior.memory().parameters();
         let (lambda, forgotten) = match self.design.steady {
             Some(Steady { lambda, form }) => (lambda, forgotten(form, outcome.forgot, n)),
             None => (M::Real::ONE, Forgotten::rank(0)),
         };
-        Update {
-            error,
+        Report {
             leverage: outcome.leverage,
             forgetting_factor: forgotten.forgetting_factor.map_or(lambda, M::Real::from_f64),
             rank: forgotten.rank,
@@ -87,12 +69,12 @@ where
                 Some(_) => outcome.windup,
                 None => outcome.largest > self.design.windup_limit,
             },
-            whitened: Whitened::Row { errors: error, noise: M::Real::ONE },
+            whitened: Numbers::Innovations,
         }
     }
 }
 
-impl<F: Forgetting<M>, R: Rate<M>, M: Memory> EstimatorState<F, R, M> {
+impl<F: Forgetting<M>, R: Rate<M>, M: Memory> RecursionState<F, R, M> {
     /// Shows samples to the monitor, if there is one, and notes whether P had wound up after each.
     #[inline]
     fn monitor_many(

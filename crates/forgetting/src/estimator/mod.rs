@@ -12,6 +12,8 @@ mod any;
 mod design;
 mod diagnostics;
 mod many;
+mod measured;
+mod recursion;
 mod state;
 mod statistics;
 mod steps;
@@ -22,14 +24,15 @@ use crate::gates::{AnyGate, Open};
 use crate::memory::Memory;
 use crate::rates::Rate;
 use crate::rules::Forgetting;
-use crate::sample::{Noise, SampleBuffers, Update, Work};
+use crate::sample::{Noise, Update, Whitened};
 use crate::weightings::Weighting;
 #[cfg(feature = "alloc")]
 pub use any::AnyEstimator;
-use design::Design;
-use diagnostics::Diagnostics;
+use design::{Design, WINDUP};
 use forgetting_kernels::kernel::outcome::Outcome;
-use state::EstimatorState;
+use forgetting_kernels::Real;
+use measured::Measured;
+use recursion::Recursion;
 
 /// Recursive least squares with the forgetting rule `F`, the rate `R` and the weighting `W`.
 ///
@@ -59,17 +62,9 @@ where
     W: Weighting<M>,
     M: Memory,
 {
-    design: Design<F, R, W, M>,
-    state: EstimatorState<F, R, M>,
-    buffers: Buffers<M>,
-}
-
-/// What an update writes to, and the next one need not read.
-#[derive(Clone, Debug)]
-struct Buffers<M: Memory> {
-    sample: SampleBuffers<M>,
-    work: Work<M>,
-    diagnostics: Diagnostics<M>,
+    recursion: Recursion<F, R, W, M>,
+    /// where P₀ follows the data
+    measured: Option<Measured<M>>,
 }
 
 impl<F, R, W, M> Estimator<F, R, W, M>
@@ -80,34 +75,38 @@ where
     M: Memory,
 {
     /// Growth of the largest element of D over its first value that counts as windup.
-    pub const WINDUP: f64 = 10.0;
+    pub const WINDUP: f64 = WINDUP;
 
     /// An estimator that starts from `prior`.
     pub fn new(rule: F, rate: R, weighting: W, prior: Prior<M>) -> Self {
-        let memory = prior.memory();
-        let design = Design::new(rule, rate, weighting, AnyGate::Open(Open::new()), prior);
-        let buffers = Buffers {
-            sample: SampleBuffers::new(memory),
-            work: Work::new(memory),
-            diagnostics: Diagnostics::new(),
-        };
-        Self { state: design.start(false), design, buffers }
+        Self::of(Design::new(rule, rate, weighting, AnyGate::Open(Open::new()), prior))
     }
 
-    /// The same estimator behind this gate.
+    fn of(design: Design<F, R, W, M>) -> Self {
+        let prior = &design.prior;
+        let measured = prior.is_of_data().then(|| Measured::new(prior.memory(), prior.theta()));
+        Self { measured, recursion: Recursion::new(design) }
+    }
+
+    /// The same estimator behind this gate, at its start.
     #[must_use]
     pub fn with_gate(self, gate: AnyGate<M>) -> Self {
-        Self { design: self.design.with_gate(gate), ..self }
+        Self::of(self.recursion.design.with_gate(gate))
     }
 
     /// Back to the prior, as if no sample had been seen.
     pub fn reset(&mut self) {
-        self.state = self.design.start(self.state.monitor.is_some());
+        let Recursion { design, state, .. } = &mut self.recursion;
+        *state = design.start(state.monitor.is_some());
+        if let Some(measured) = &mut self.measured {
+            *measured = Measured::new(design.prior.memory(), design.prior.theta());
+        }
     }
 
     /// Monitors windup, excitation and noise from now on; see [`Estimator::health`]. O(n) a sample.
     pub fn watch(&mut self) {
-        self.state.monitor = Some(self.design.monitor(&self.state.factor));
+        let Recursion { design, state, .. } = &mut self.recursion;
+        state.monitor = Some(design.monitor(&state.factor));
     }
 
     /// Does `work`. If that fails, the estimator is as it was before, bit for bit.
@@ -118,8 +117,8 @@ where
         &mut self,
         work: impl FnOnce(&mut Self) -> Result<X, E>,
     ) -> Result<X, E> {
-        let before = self.state.clone();
-        work(self).inspect_err(|_| self.state = before)
+        let before = (self.recursion.state.clone(), self.measured.clone());
+        work(self).inspect_err(|_| (self.recursion.state, self.measured) = before)
     }
 
     /// Takes the sample of p x n numbers `phi` and p x m numbers `y`, with Γ = I.
@@ -142,16 +141,47 @@ where
         y: &[M::Real],
         noise: Noise<'_, M::Real>,
     ) -> Result<Update<'_, M::Real>, Error> {
-        let n = self.design.prior.memory().parameters();
-        let mut outcome = [Outcome::default()];
-        if phi.len() == n
-            && y.len() == 1
-            && matches!(noise, Noise::Unit)
-            && self.update_many(phi, y, &mut outcome, &mut []) == 1
-        {
-            self.buffers.sample.innovations.as_mut()[0] = outcome[0].error;
-            return Ok(self.report_of(self.buffers.sample.innovations.as_ref(), &outcome[0]));
+        let report = match &mut self.measured {
+            None => self.recursion.update(phi, y, noise)?,
+            Some(measured) => measured.update(&mut self.recursion, (phi, y), noise)?,
+        };
+        Ok(self.recursion.complete(report))
+    }
+
+    /// Whether [`Estimator::update_many`] takes samples at all: a sample is forgotten, measured and
+    /// corrected, and nothing else is to be done with it.
+    #[inline]
+    pub fn takes_many(&self) -> bool {
+        self.recursion.takes_many()
+    }
+
+    /// Takes samples of n numbers `phi` and one number `y` each, in one call; writes what became of
+    /// each to `outcomes` and returns how many it took, at most as many as there are outcomes.
+    ///
+    /// It takes none where there is more to do than to forget, measure and correct (a variable
+    /// rate, a gate, several rows, …), and stops before a sample that it cannot use:
+    /// [`Estimator::update`] takes that one, or says what is wrong with it. The result is that of
+    /// one update a sample: bit for bit up to ten parameters, to rounding above. `thetas` is empty,
+    /// or has room for n numbers a sample: θ after it.
+    #[inline]
+    pub fn update_many(
+        &mut self,
+        phi: &[M::Real],
+        y: &[M::Real],
+        outcomes: &mut [Outcome<M::Real>],
+        thetas: &mut [M::Real],
+    ) -> usize {
+        match &mut self.measured {
+            None => self.recursion.update_many(phi, y, outcomes, thetas),
+            Some(measured) => measured.update_many(&mut self.recursion, (phi, y), outcomes, thetas),
         }
-        self.update_in_steps(phi, y, noise)
+    }
+
+    /// What an update would have reported of a sample that [`Estimator::update_many`] took.
+    #[inline]
+    pub fn report<'a>(&self, outcome: &'a Outcome<M::Real>) -> Update<'a, M::Real> {
+        let errors = core::slice::from_ref(&outcome.error);
+        let whitened = Whitened::Row { errors, noise: M::Real::ONE };
+        self.recursion.report_of(outcome).with(errors, whitened)
     }
 }

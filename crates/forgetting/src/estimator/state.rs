@@ -10,7 +10,7 @@ use forgetting_kernels::Real;
 
 /// θ, P, what rule and rate remember, the number of samples, and the monitor if there is one.
 #[derive(Clone, Debug)]
-pub(crate) struct EstimatorState<F: Forgetting<M>, R: Rate<M>, M: Memory> {
+pub(crate) struct RecursionState<F: Forgetting<M>, R: Rate<M>, M: Memory> {
     pub factor: Factor<M>,
     pub theta: M::Parameters,
     pub rule: F::State,
@@ -20,7 +20,7 @@ pub(crate) struct EstimatorState<F: Forgetting<M>, R: Rate<M>, M: Memory> {
     pub monitor: Option<Monitor<M>>,
 }
 
-impl<F: Forgetting<M>, R: Rate<M>, M: Memory> State<M::Real> for EstimatorState<F, R, M> {
+impl<F: Forgetting<M>, R: Rate<M>, M: Memory> State<M::Real> for RecursionState<F, R, M> {
     fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
         self.factor.visit(visitor);
         visitor.reals(self.theta.as_mut());

@@ -1,21 +1,23 @@
 //! The recursion step by step: admit, forget, measure and correct, watch.
 
+use super::design::Design;
 use super::diagnostics::Diagnostics;
+use super::recursion::{Buffers, Numbers, Recursion, Report};
+use super::state::RecursionState;
 use super::statistics::Statistics;
-use super::{Buffers, Design, Estimator, EstimatorState};
 use crate::error::Error;
 use crate::gates::Gate;
 use crate::memory::Memory;
 use crate::rates::Rate;
 use crate::rules::{Forgetting, Forgotten, Step};
 use crate::sample::{leverage, measure_rows, whiten};
-use crate::sample::{Answer, Noise, Sample, Skip, Update, Whitened};
+use crate::sample::{Answer, Noise, Sample, Skip};
 use crate::weightings::Weighting;
 use forgetting_kernels::kernel::form::Form;
 use forgetting_kernels::kernel::watch::Observation;
 use forgetting_kernels::Real;
 
-impl<F, R, W, M> Estimator<F, R, W, M>
+impl<F, R, W, M> Recursion<F, R, W, M>
 where
     F: Forgetting<M>,
     R: Rate<M>,
@@ -29,7 +31,7 @@ where
         phi: &[M::Real],
         y: &[M::Real],
         noise: Noise<'_, M::Real>,
-    ) -> Result<Update<'_, M::Real>, Error> {
+    ) -> Result<Report<M::Real>, Error> {
         let (statistics, gate) = self.admit(phi, y, noise)?;
         let Self { design, state, buffers } = self;
         let (memory, squares) = (design.prior.memory(), statistics.squared_regressors);
@@ -70,8 +72,7 @@ where
             monitor.watch_one(&state.factor, skipped.is_none().then_some(observation));
         }
         let noise = sample.scaled() * sample.scaled();
-        Ok(Update {
-            error: buffer.innovations.as_ref(),
+        Ok(Report {
             leverage,
             forgetting_factor: forgetting_factor.map_or(lambda, M::Real::from_f64),
             rank,
@@ -82,8 +83,8 @@ where
                 None => state.factor.exceeds(design.windup_limit),
             },
             whitened: match memory.rows() {
-                1 => Whitened::Row { errors: buffer.errors.as_ref(), noise },
-                _ => buffers.diagnostics.whitened(),
+                1 => Numbers::Errors(noise),
+                _ => Numbers::Diagnostics,
             },
         })
     }
@@ -98,7 +99,7 @@ where
         noise: Noise<'_, M::Real>,
     ) -> Result<(Statistics<M::Real>, Answer), Error> {
         let Design { rate, weighting, gate, prior, .. } = &self.design;
-        let EstimatorState { factor, theta, samples, .. } = &self.state;
+        let RecursionState { factor, theta, samples, .. } = &self.state;
         let Buffers { sample: buffer, work, .. } = &mut self.buffers;
         let memory = prior.memory();
         let squares = buffer.load(memory, theta.as_ref(), phi, y)?;
@@ -189,5 +190,6 @@ pub(super) fn forgotten<T: Real>(form: Form<T>, forgot: bool, n: usize) -> Forgo
         Form::Scale { growth } if growth == T::ONE => Forgotten::rank(0).with_factor(1.0),
         Form::Scale { .. } => Forgotten::rank(n),
         Form::Along { .. } => Forgotten::rank(usize::from(forgot)),
+        Form::Walk { .. } => Forgotten::rank(if forgot { n } else { 0 }).with_factor(1.0),
     }
 }

@@ -265,6 +265,7 @@ fn strength<T: Kernels>(form: Form<T>) -> T {
     match form {
         Form::Scale { growth } => growth,
         Form::Along { weight, .. } => weight,
+        Form::Walk { noise, .. } => noise,
     }
 }
 

@@ -139,6 +139,14 @@ impl<M: Memory> Monitor<M> {
         }
     }
 
+    /// Goes on in other units: P ← S P S with S = diag(`ratios`).
+    pub fn change_units(&mut self, ratios: &[M::Real]) {
+        self.weakest.change_units(ratios);
+        for (variance, &ratio) in self.variances.as_mut().iter_mut().zip(ratios) {
+            *variance *= ratio * ratio;
+        }
+    }
+
     /// Reads P and starts the next block.
     #[cold]
     fn end_block(&mut self, factor: &Factor<M>) {

@@ -131,6 +131,20 @@ impl<M: Memory> Weakest<M> {
         informed
     }
 
+    /// Goes on in other units: P ← S P S with S = diag(`ratios`). All of w is as it was.
+    pub fn change_units(&mut self, ratios: &[M::Real]) {
+        let parts = self.least.as_mut().iter_mut().zip(self.axis.as_mut()).zip(ratios);
+        for ((least, axis), &ratio) in parts {
+            *least = (*least * ratio * ratio).max(M::Real::FLOOR);
+            *axis *= ratio;
+        }
+        for (product, &ratio) in self.products.as_mut().iter_mut().zip(ratios) {
+            *product /= ratio;
+        }
+        self.direction.as_mut().copy_from_slice(self.axis.as_ref());
+        normalize(self.direction.as_mut(), |x| dot(x, x));
+    }
+
     /// A step of the power iteration; returns whether w is still about the same. O(n²).
     fn iterate(&mut self, factor: &Factor<M>, variances: &[M::Real], samples: u64) -> bool {
         let (before, direction) = (self.before.as_mut(), self.direction.as_mut());

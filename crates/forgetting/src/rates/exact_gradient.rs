@@ -200,6 +200,16 @@ impl<M: Memory> Rate<M> for ExactGradient<M> {
         }
     }
 
+    fn change_units(&self, state: &mut Self::State, ratios: &[M::Real]) {
+        let rows = state.covariance.as_mut().chunks_exact_mut(ratios.len());
+        for (row, &own) in rows.zip(ratios) {
+            row.iter_mut().zip(ratios).for_each(|(z, &other)| *z *= own * other);
+        }
+        for theta in state.theta.as_mut().chunks_exact_mut(ratios.len()) {
+            theta.iter_mut().zip(ratios).for_each(|(slope, &ratio)| *slope *= ratio);
+        }
+    }
+
     #[inline]
     fn forgetting_factor(
         &self,

@@ -49,6 +49,13 @@ pub trait Rate<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
         None
     }
 
+    /// Takes note that the units of θ have changed: θ ← S θ and P ← S P S with S = diag(`ratios`).
+    /// Only a design whose state is in these units need do so.
+    #[inline]
+    fn change_units(&self, state: &mut Self::State, ratios: &[M::Real]) {
+        let _ = (state, ratios);
+    }
+
     /// λ_k in (0, 1], from what is known before the sample is used.
     ///
     /// A design that finds λ for the next sample keeps it in its state and returns it here.
@@ -79,6 +86,7 @@ registry! {
             state: &State,
             evidence: &Evidence<'_, '_, M>,
         ) -> Result<M::Real, Error>;
+        fn change_units(&self, state: &mut State, ratios: &[M::Real]);
         #[inline]
         fn learn(&self, state: &mut State, evidence: &Evidence<'_, '_, M>, lambda: M::Real);
     }

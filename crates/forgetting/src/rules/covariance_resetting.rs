@@ -174,6 +174,10 @@ impl<M: Memory, F: Forgetting<M>> Forgetting<M> for CovarianceResetting<M, F> {
         self.rule.follow(&mut state.rule, step);
     }
 
+    fn change_units(&self, state: &mut Self::State, ratios: &[M::Real]) {
+        self.rule.change_units(&mut state.rule, ratios);
+    }
+
     #[inline]
     fn forget(&self, state: &mut Self::State, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         let Step { factor, sample, forgetting_factor, work } = step;

@@ -175,6 +175,12 @@ impl<M: Memory> Forgetting<M> for Efra<M> {
         Bounds { below: None, above: positive(self.increase.to_f64() + grown) }
     }
 
+    /// What is still to be added belongs to eigenvectors that are no longer orthogonal: it is let go.
+    fn change_units(&self, state: &mut Pending<M>, _: &[M::Real]) {
+        state.spectrum.discard();
+        state.added.as_mut().fill(M::Real::ZERO);
+    }
+
     fn restart(&self, state: &mut Pending<M>, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         self.check_growth(step.forgetting_factor, step.factor.parameters())?;
         self.weigh(state, step);

@@ -207,6 +207,10 @@ impl<M: Memory> Forgetting<M> for MatrixForgetting<M> {
         spectrum.learn_rows(step.sample.regressors());
     }
 
+    fn change_units(&self, spectrum: &mut Spectrum<M>, _: &[M::Real]) {
+        spectrum.discard();
+    }
+
     fn restart(
         &self,
         spectrum: &mut Spectrum<M>,

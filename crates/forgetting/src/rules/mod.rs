@@ -125,6 +125,13 @@ pub trait Forgetting<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
         let _ = (state, step);
     }
 
+    /// Takes note that the units of θ have changed: θ ← S θ and P ← S P S with S = diag(`ratios`).
+    /// Only a rule whose state is in these units need do so.
+    #[inline]
+    fn change_units(&self, state: &mut Self::State, ratios: &[M::Real]) {
+        let _ = (state, ratios);
+    }
+
     /// Takes a sample before which P was replaced, by the one in `step`: chooses what is measured of
     /// it, as [`Forgetting::forget`] would, and takes from this P whatever the state keeps of P.
     /// Nothing is forgotten: the caller puts P back afterwards, or on an error.
@@ -153,6 +160,7 @@ registry! {
         fn form(&self, forgetting_factor: M::Real) -> Option<Form<M::Real>>;
         #[inline(never)]
         fn follow(&self, state: &mut State, step: Step<'_, '_, M>);
+        fn change_units(&self, state: &mut State, ratios: &[M::Real]);
         #[inline(never)]
         fn restart(&self, state: &mut State, step: Step<'_, '_, M>) -> Result<Forgotten, Error>;
         // not into every update: it is all the rules there are

@@ -282,6 +282,26 @@ impl<M: Memory> Forgetting<M> for Multiple<M> {
         }
     }
 
+    fn change_units(&self, state: &mut BlockFactors<M>, ratios: &[M::Real]) {
+        let mut offset = 0;
+        for (start, size, _) in self.blocks() {
+            let columns = &mut state.columns.as_mut()[offset..offset + length::<M::Real>(size)];
+            let ratios = &ratios[start..start + size];
+            for (j, &ratio) in ratios.iter().enumerate() {
+                for (i, &above) in ratios[..j].iter().enumerate() {
+                    columns[place::<M::Real>(i, j)] *= above / ratio;
+                }
+                let d = state.diagonal.as_ref()[start + j] * ratio * ratio;
+                let d = d.max(M::Real::FLOOR).min(M::Real::CEILING);
+                // 0 before the first sample
+                if state.started != 0 {
+                    state.diagonal.as_mut()[start + j] = d;
+                }
+            }
+            offset += length::<M::Real>(size);
+        }
+    }
+
     fn restart(
         &self,
         state: &mut BlockFactors<M>,

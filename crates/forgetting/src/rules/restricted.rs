@@ -105,6 +105,12 @@ impl<M: Memory> Forgetting<M> for Restricted<M> {
         }
     }
 
+    fn change_units(&self, pending: &mut Pending<M>, ratios: &[M::Real]) {
+        for row in pending.regressors.as_mut().chunks_exact_mut(ratios.len()) {
+            row.iter_mut().zip(ratios).for_each(|(x, &ratio)| *x /= ratio);
+        }
+    }
+
     fn restart(&self, pending: &mut Pending<M>, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         pending.keep(step.sample, step.forgetting_factor);
         Ok(Forgotten::rank(0))

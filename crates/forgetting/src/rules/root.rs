@@ -96,6 +96,12 @@ impl<M: Memory> Root<M> {
         Ok(Self { memory, form: Form::Dense, given, rank, rows })
     }
 
+    /// c, if the matrix was given as the number c.
+    #[inline]
+    pub fn scalar_given(&self) -> Option<M::Real> {
+        (self.form == Form::Scalar).then(|| self.given.as_ref()[0])
+    }
+
     /// The sizes it was made for.
     pub fn memory(&self) -> M {
         self.memory

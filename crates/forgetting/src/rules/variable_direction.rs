@@ -180,6 +180,10 @@ impl<M: Memory> Forgetting<M> for VariableDirection<M> {
         }
     }
 
+    fn change_units(&self, spectrum: &mut Spectrum<M>, _: &[M::Real]) {
+        spectrum.discard();
+    }
+
     fn restart(
         &self,
         spectrum: &mut Spectrum<M>,

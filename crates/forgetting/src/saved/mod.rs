@@ -21,7 +21,7 @@ use crate::covariance::Prior;
 use crate::error::Error;
 use crate::estimator::Estimator;
 use crate::gates::{AnyGate, Gate, Open};
-use crate::memory::state::{State, Visitor};
+use crate::memory::state::Visitor;
 use crate::memory::{Dynamic, Memory};
 use crate::rates::{AnyRate, Rate};
 use crate::rules::{Forgetting, Rule};
@@ -30,10 +30,12 @@ use alloc::{boxed::Box, string::String, vec::Vec};
 use forgetting_kernels::Kernels;
 use forgetting_kernels::Real;
 
+mod bank;
 mod read;
 mod write;
 
 pub use crate::estimator::AnyEstimator;
+pub use bank::bank_number_type;
 
 /// The version of the format that is written, and the latest that is read.
 pub const VERSION: u8 = 2;
@@ -48,7 +50,7 @@ impl<T: Kernels> AnyEstimator<T> {
         let mut bytes = write::header(self)?;
         let mut numbers = write::Numbers(&mut bytes);
         self.prior().clone().visit(&mut numbers);
-        self.state().clone().visit(&mut numbers);
+        self.clone().visit(&mut numbers);
         let check = crc32(&bytes);
         bytes.extend_from_slice(&check.to_le_bytes());
         Ok(bytes)
@@ -93,6 +95,9 @@ pub fn number_type(bytes: &[u8]) -> Result<usize, Error> {
 /// The bytes without their check, if they are of this format and unaltered.
 fn checked(bytes: &[u8]) -> Result<&[u8], Error> {
     let refuse = |reason| Err(Error::State { reason });
+    if bytes.starts_with(bank::MARK) {
+        return refuse("it is a saved bank of estimators, not one estimator");
+    }
     if bytes.len() < MARK.len() || &bytes[..MARK.len()] != MARK {
         return refuse("it is not a saved estimator");
     }

@@ -24,7 +24,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn take(&mut self, count: usize) -> Result<&'a [u8], Error> {
+    pub fn take(&mut self, count: usize) -> Result<&'a [u8], Error> {
         if count > self.bytes.len() {
             self.truncated = true;
             return Err(Error::State { reason: "it is truncated" });
@@ -45,12 +45,16 @@ impl<'a> Reader<'a> {
         Ok(array)
     }
 
-    fn byte(&mut self) -> Result<u8, Error> {
+    pub fn byte(&mut self) -> Result<u8, Error> {
         self.array::<1>().map(|[byte]| byte)
     }
 
-    fn size(&mut self) -> Result<usize, Error> {
+    pub fn size(&mut self) -> Result<usize, Error> {
         self.array().map(|bytes| u32::from_le_bytes(bytes) as usize)
+    }
+
+    pub fn count(&mut self) -> Result<usize, Error> {
+        self.array().map(|bytes| usize::from(u16::from_le_bytes(bytes)))
     }
 
     fn word(&mut self) -> Result<String, Error> {
@@ -80,7 +84,7 @@ impl<'a> Reader<'a> {
     }
 
     /// A name and its parameters.
-    fn choice(&mut self, level: usize) -> Result<(String, Parameters), Error> {
+    pub fn choice(&mut self, level: usize) -> Result<(String, Parameters), Error> {
         let name = self.word()?;
         let count = self.byte()?;
         let mut parameters = Vec::new();
@@ -98,7 +102,7 @@ enum SavedValue {
     Choice { name: String, values: Parameters },
 }
 
-struct Parameters(Vec<(String, SavedValue)>);
+pub struct Parameters(Vec<(String, SavedValue)>);
 
 impl Values for Parameters {
     fn get(&self, name: &str) -> Option<Value<'_>> {

@@ -106,11 +106,17 @@ pub fn advance<T: Real, A: Abreast<T>, const N: usize>(
     let theta = state.several(layout.theta());
     let (product, squares) = few_products(f, &theta);
     let error = y - product;
-    let accepted = accepts(error, squares);
+    let (accepted, zero) = (accepts(error, squares), A::splat(T::ZERO));
     let d = state.several(layout.diagonal());
     let small = Small { u: state, d };
     match form {
-        Form::Scale { .. } => scale(small, strength, f, (y, error, squares), accepted),
+        Form::Scale { .. } => {
+            scale::<T, A, N, false>(small, (strength, zero), f, (y, error, squares), accepted)
+        }
+        Form::Walk { shrink, .. } => {
+            let walk = (A::splat(shrink), strength);
+            scale::<T, A, N, true>(small, walk, f, (y, error, squares), accepted)
+        }
         Form::Along { dead_zone, .. } => {
             let informed = A::both(accepted, dead_zone.leaves(squares));
             let arrived = (y, error, squares);
@@ -119,18 +125,18 @@ pub fn advance<T: Real, A: Abreast<T>, const N: usize>(
     }
 }
 
-/// P̄ = growth·P.
+/// P̄ = growth·P + noise·I, without the noise unless `WALK`.
 #[inline(always)]
-fn scale<T: Real, A: Abreast<T>, const N: usize>(
+fn scale<T: Real, A: Abreast<T>, const N: usize, const WALK: bool>(
     mut small: Small<A, N, State<'_, T, A, N>>,
-    growth: A,
+    (growth, noise): (A, A),
     f: &[A; N],
     (y, error, squares): (A, A, A),
     accepted: A::Mask,
 ) -> LaneOutcome<A> {
     let layout = const { Layout::new(N) };
     let bound = small.u.read(layout.bound());
-    let room = (growth, A::splat(T::ZERO));
+    let room = (growth, noise * A::splat(T::from_f64(N as f64)));
     let (bound, used) = make_room(bound, room, accepted, &small);
     let mut copy;
     let mut before = None;
@@ -140,7 +146,12 @@ fn scale<T: Real, A: Abreast<T>, const N: usize>(
         small.u.copy_to(&mut copy);
         before = Some(&copy);
     }
-    let gain = small.scale_and_measure::<T, true>(growth, f);
+    let gain = if WALK {
+        small.walk(growth, noise);
+        small.scale_and_measure::<T, true>(A::splat(T::ONE), f)
+    } else {
+        small.scale_and_measure::<T, true>(growth, f)
+    };
     let outcome = correct(small, &gain, (bound, error), (before, used));
     match before {
         None => outcome,

@@ -63,7 +63,7 @@ pub struct Streams<'a, T: Real> {
     pub n: usize,
     /// how they forget
     pub form: Form<T>,
-    /// what P is multiplied with, or (1 − λ)/λ: one line for all blocks or one each
+    /// what P is multiplied with, (1 − λ)/λ or the noise of a walk: one line for all blocks or one each
     pub strengths: &'a [Line<T>],
     /// [`Layout::length`](super::storage::Layout::length) lines a block
     pub lines: &'a mut [Line<T>],

@@ -17,6 +17,7 @@ use crate::number::Real;
 mod chain;
 pub mod floor;
 mod unit;
+mod walk;
 
 pub use unit::{InPlace, Unit};
 

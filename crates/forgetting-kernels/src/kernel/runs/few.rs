@@ -1,7 +1,7 @@
 //! At most ten parameters: U, D and θ stay in registers.
 
 use super::super::bierman::largest;
-use super::super::measure::{along, scale, Bounds};
+use super::super::measure::{along, scale, walk, Bounds};
 use super::super::outcome::Outcome;
 use super::super::registers::{InPlace, Small, Unit};
 use super::super::vectors::few_products;
@@ -12,10 +12,15 @@ use crate::number::lane::One;
 use crate::number::vector::Vector;
 use crate::number::Real;
 
-/// Takes samples of `N` parameters that forget in one form.
-pub struct Few<'a, 'b, T, const N: usize, const ALONG: bool>(pub &'b mut Steps<'a, T>);
+/// Which form of forgetting a kernel is for.
+pub const SCALE: u8 = 0;
+pub const ALONG: u8 = 1;
+pub const WALK: u8 = 2;
 
-impl<T: Real, const N: usize, const ALONG: bool> Kernel<T> for Few<'_, '_, T, N, ALONG> {
+/// Takes samples of `N` parameters that forget in one form.
+pub struct Few<'a, 'b, T, const N: usize, const FORM: u8>(pub &'b mut Steps<'a, T>);
+
+impl<T: Real, const N: usize, const FORM: u8> Kernel<T> for Few<'_, '_, T, N, FORM> {
     type Output = usize;
 
     #[inline(always)]
@@ -31,10 +36,10 @@ impl<T: Real, const N: usize, const ALONG: bool> Kernel<T> for Few<'_, '_, T, N,
         }
         match N {
             // there is less arithmetic than waiting for it
-            0..=4 => in_registers::<T, V::One, N, ALONG>(self.0),
+            0..=4 => in_registers::<T, V::One, N, FORM>(self.0),
             // more of it than of numbers: the compiler would lose time with pairs of them
-            _ if ALONG => in_place::<T, V::One, N, ALONG>(self.0),
-            _ => in_place::<T, T, N, ALONG>(self.0),
+            _ if FORM == ALONG => in_place::<T, V::One, N, FORM>(self.0),
+            _ => in_place::<T, T, N, FORM>(self.0),
         }
         .unwrap_or(0)
     }
@@ -42,30 +47,30 @@ impl<T: Real, const N: usize, const ALONG: bool> Kernel<T> for Few<'_, '_, T, N,
 
 /// With U in registers.
 #[inline(always)]
-fn in_registers<T: Real, A: One<T>, const N: usize, const ALONG: bool>(
+fn in_registers<T: Real, A: One<T>, const N: usize, const FORM: u8>(
     task: &mut Steps<'_, T>,
 ) -> Option<usize> {
     let mut small = Small::<A, N>::load(task.place.columns, task.place.diagonal.first_chunk()?);
-    let taken = all::<T, A, _, N, ALONG>(task, &mut small)?;
+    let taken = all::<T, A, _, N, FORM>(task, &mut small)?;
     small.store(task.place.columns, task.place.diagonal.first_chunk_mut()?);
     Some(taken)
 }
 
 /// With U where it is kept.
 #[inline(always)]
-fn in_place<T: Real, A: One<T>, const N: usize, const ALONG: bool>(
+fn in_place<T: Real, A: One<T>, const N: usize, const FORM: u8>(
     task: &mut Steps<'_, T>,
 ) -> Option<usize> {
     let d = A::splat_each(task.place.diagonal.first_chunk()?);
     let u = InPlace::of::<N>(core::mem::take(&mut task.place.columns));
     let mut small = Small { u, d };
-    let taken = all::<T, A, _, N, ALONG>(task, &mut small)?;
+    let taken = all::<T, A, _, N, FORM>(task, &mut small)?;
     *task.place.diagonal.first_chunk_mut()? = A::get_each(&small.d);
     Some(taken)
 }
 
 #[inline(always)]
-fn all<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const ALONG: bool>(
+fn all<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const FORM: u8>(
     task: &mut Steps<'_, T>,
     small: &mut Small<A, N, U>,
 ) -> Option<usize> {
@@ -73,7 +78,7 @@ fn all<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const ALONG: bool>(
     let (most, mut taken) = (task.outcomes.len().min(task.y.len()), 0);
     let (mut trace, mut tight) = (*task.place.bound, false);
     while taken < most {
-        match take::<T, A, U, N, ALONG>(task, taken, small, (&mut theta, &mut trace)) {
+        match take::<T, A, U, N, FORM>(task, taken, small, (&mut theta, &mut trace)) {
             0 if tight => break,
             // perhaps only because the bound is far above the trace
             0 => (trace, tight) = (small.trace().get(), true),
@@ -87,7 +92,7 @@ fn all<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const ALONG: bool>(
 /// Takes samples from `at` on; returns how many. 0 means that `trace`, which is at least that of P, is
 /// too large, or that the next one must be taken elsewhere.
 #[inline(always)]
-fn take<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const ALONG: bool>(
+fn take<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const FORM: u8>(
     task: &mut Steps<'_, T>,
     at: usize,
     small: &mut Small<A, N, U>,
@@ -105,22 +110,28 @@ fn take<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const ALONG: bool>(
         if !accepts(error, squares) {
             break;
         }
-        if ALONG && form.leaves_out(squares) {
+        if FORM == ALONG && form.leaves_out(squares) {
             *outcome = left_out(small, error, &f);
         } else {
             let sample = (&f, squares);
             let gain = match *form {
-                Form::Scale { growth } if !ALONG => {
+                Form::Scale { growth } if FORM == SCALE => {
                     scale::<T, A, U, N, false>(small, &mut bounds, growth, sample, least)
                 }
-                Form::Along { weight, .. } if ALONG => {
+                Form::Along { weight, .. } if FORM == ALONG => {
                     along::<T, A, U, N, false>(small, &mut bounds, weight, sample, least)
+                }
+                Form::Walk { shrink, noise } if FORM == WALK => {
+                    walk::<T, A, U, N, false>(small, &mut bounds, (shrink, noise), sample, least)
                 }
                 _ => None,
             };
             let Some((gain, forgot)) = gain else { break };
             // D becomes no less than D / a
-            least *= gain.inverse_a.get();
+            least *= match *form {
+                Form::Walk { shrink, .. } if FORM == WALK => shrink * gain.inverse_a.get(),
+                _ => gain.inverse_a.get(),
+            };
             let step = A::splat(error) * gain.inverse_a;
             for i in 0..N {
                 theta[i] = step.mul_add(gain.k[i], theta[i]);

@@ -10,7 +10,7 @@ use super::measure::Place;
 use super::outcome::Outcome;
 use crate::kernel::form::Form;
 use crate::number::Real;
-use few::Few;
+use few::{Few, ALONG, SCALE, WALK};
 use many::Many;
 
 /// Samples, and what takes them.
@@ -45,8 +45,9 @@ pub fn advance<T: Real, D: Dispatch<T>>(steps: &mut Steps<'_, T>) -> usize {
 #[inline(always)]
 fn few<T: Real, D: Dispatch<T>, const N: usize>(steps: &mut Steps<'_, T>) -> usize {
     match steps.form {
-        Form::Scale { .. } => D::run(Few::<T, N, false>(steps)),
-        Form::Along { .. } => D::run(Few::<T, N, true>(steps)),
+        Form::Scale { .. } => D::run(Few::<T, N, SCALE>(steps)),
+        Form::Along { .. } => D::run(Few::<T, N, ALONG>(steps)),
+        Form::Walk { .. } => D::run(Few::<T, N, WALK>(steps)),
     }
 }
 

@@ -123,7 +123,10 @@ impl<'a, T: Real, A: Abreast<T>> Columns<'a, T, A> {
         let error = y - product;
         let accepted = accepts(error, squares);
         let (informed, mut growth, (mut c, mut t), grown) = match form {
-            Form::Scale { .. } => (accepted, strength, (zero, one), (strength, zero)),
+            // a walk is of few parameters only
+            Form::Scale { .. } | Form::Walk { .. } => {
+                (accepted, strength, (zero, one), (strength, zero))
+            }
             Form::Along { dead_zone, .. } => {
                 let added @ (c, _) = self.look(work, strength);
                 let informed = A::both(accepted, dead_zone.leaves(squares));
@@ -143,7 +146,7 @@ impl<'a, T: Real, A: Abreast<T>> Columns<'a, T, A> {
             work.leave_out::<A>(used);
         }
         let measured = match form {
-            Form::Scale { .. } => self.scale(work, growth),
+            Form::Scale { .. } | Form::Walk { .. } => self.scale(work, growth),
             Form::Along { .. } => self.widen(work, (c, t)),
         };
         let step = A::select(used, error * measured.inverse_a, -zero);

@@ -1,0 +1,344 @@
+//! Several estimators on the same samples, and their mixture: nothing need be chosen beforehand.
+//!
+//! ```text
+//! φθ = Σ w_i φθ_i                                      prediction; θ = Σ w_i θ_i
+//! P  = Σ w_i (P_i + (θ_i − θ)(θ_i − θ)ᵀ/σ²)            covariance, with what the members disagree about
+//! N  = Σ w_i n/s̄_i                                     memory in samples, s̄_i the mean leverage of member i
+//! ```
+//!
+//! The weights w are those of a mixer ([`crate::mixers`]), which learns from the errors of the members.
+//! For the first 3n samples, in which each member still learns what θ is, all are believed alike.
+//! A member that cannot take a sample sleeps: it has no part in that prediction, and stays as it was.
+//!
+//! A bank of one is that estimator, bit for bit.
+
+mod members;
+mod mixture;
+mod read;
+
+pub use members::{default_members, DEFAULT_NOISE};
+
+use crate::error::Error;
+use crate::estimator::AnyEstimator;
+use crate::memory::{Aligned, Dynamic, Memory};
+use crate::mixers::{AnyMixer, AnyMixerState, Forecasts, Mixer};
+use crate::sample::{Noise, Skip};
+use crate::units::Units;
+use alloc::vec::Vec;
+use forgetting_kernels::Kernels;
+use mixture::Mixture;
+
+/// Samples a parameter before members are weighed.
+const WARM_UP: u64 = 3;
+
+/// Estimators of the same sizes, and what mixes them.
+///
+/// ```
+/// use forgetting::bank::{default_members, Bank};
+/// use forgetting::choice::Defaults;
+/// use forgetting::mixers::AnyMixer;
+/// use forgetting::{Dynamic, Noise};
+///
+/// let memory = Dynamic::<f64>::new(2, 1, 1)?;
+/// let members = default_members(memory)?;
+/// let mixer = AnyMixer::named("mlpol", &Defaults, Dynamic::new(members.len(), 1, 1)?)?;
+/// let mut bank = Bank::of_data(members, mixer)?;
+/// for k in 0..100 {
+///     let phi = [1.0, f64::from(k % 7)];
+///     bank.update(&phi, &[3.0 + 0.5 * phi[1]], Noise::Unit)?;
+/// }
+/// assert!((bank.theta()[0] - 3.0).abs() < 1e-3);
+/// # Ok::<(), forgetting::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Bank<T: Kernels> {
+    mixer: AnyMixer<Dynamic<T>>,
+    memory: Dynamic<T>,
+    /// whether the units of φ are those of the data
+    follows_data: bool,
+    state: BankState<T>,
+    buffers: Buffers<T>,
+}
+
+/// What the next sample needs.
+#[derive(Clone, Debug)]
+struct BankState<T: Kernels> {
+    members: Vec<AnyEstimator<T>>,
+    mixer: AnyMixerState<Dynamic<T>>,
+    mixture: Mixture<T>,
+    units: Option<Units<Dynamic<T>>>,
+}
+
+/// What an update writes to, and the next one need not read.
+#[derive(Clone, Debug)]
+struct Buffers<T: Kernels> {
+    phi: Aligned<T>,
+    /// p x m numbers a member: y − φθ, in units of y
+    errors: Vec<T>,
+    /// the same, whitened
+    whitened: Vec<T>,
+    /// of the mixture
+    error: Vec<T>,
+    mixed: Vec<T>,
+    leverages: Vec<T>,
+    awake: Vec<bool>,
+    /// θ of the mixture in the units of the user, m x n numbers
+    theta: Aligned<T>,
+    root: Aligned<T>,
+}
+
+/// What a bank reports of a sample.
+#[derive(Clone, Copy, Debug)]
+pub struct BankUpdate<'a, T> {
+    /// y − φθ of the mixture with the θ of before: p x m numbers, row by row, in units of y
+    pub error: &'a [T],
+    /// Σ w_i s_i: the variance of the prediction in units of the noise's, without what members
+    /// disagree about
+    pub leverage: T,
+    /// λ of the members, mixed
+    pub forgetting_factor: T,
+    /// why the sample was left out, if all members left it out
+    pub skipped: Option<Skip>,
+    /// whether P of every member that is believed has wound up
+    pub windup: bool,
+    /// members that could not take the sample
+    pub asleep: usize,
+}
+
+impl<T: Kernels> Bank<T> {
+    /// These members, mixed by `mixer`, which is made for as many. They take φ as it is.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] without members, or for members of different sizes or with a prior that
+    /// follows the data.
+    pub fn new(members: Vec<AnyEstimator<T>>, mixer: AnyMixer<Dynamic<T>>) -> Result<Self, Error> {
+        Self::with_units(members, mixer, false)
+    }
+
+    /// The same, the members being given φ in units that the data choose: their priors are in these.
+    ///
+    /// # Errors
+    /// Those of [`Bank::new`].
+    pub fn of_data(
+        members: Vec<AnyEstimator<T>>,
+        mixer: AnyMixer<Dynamic<T>>,
+    ) -> Result<Self, Error> {
+        Self::with_units(members, mixer, true)
+    }
+
+    pub(crate) fn with_units(
+        members: Vec<AnyEstimator<T>>,
+        mixer: AnyMixer<Dynamic<T>>,
+        follows_data: bool,
+    ) -> Result<Self, Error> {
+        let memory = members::common_memory(&members)?;
+        let of_members = Dynamic::new(members.len(), 1, 1)?;
+        let (count, width) = (members.len(), memory.rows() * memory.targets());
+        let zeros = |length| alloc::vec![T::ZERO; length];
+        let buffers = Buffers {
+            phi: memory.regressors(),
+            errors: zeros(count * width),
+            whitened: zeros(count * width),
+            error: zeros(width),
+            mixed: zeros(width),
+            leverages: zeros(count),
+            awake: alloc::vec![true; count],
+            theta: memory.theta(),
+            root: memory.noise(),
+        };
+        let state = BankState {
+            mixer: mixer.start(of_members),
+            mixture: Mixture::new(count),
+            units: follows_data.then(|| Units::new(memory)),
+            members,
+        };
+        let mut bank = Self { mixer, memory, follows_data, state, buffers };
+        bank.reset();
+        Ok(bank)
+    }
+
+    /// Back to the prior, as if no sample had been seen.
+    pub fn reset(&mut self) {
+        let Self { mixer, memory, follows_data, state, .. } = self;
+        let count = state.members.len();
+        state.members.iter_mut().for_each(AnyEstimator::reset);
+        // as many were allowed before
+        if let Ok(of_members) = Dynamic::new(count, 1, 1) {
+            state.mixer = mixer.start(of_members);
+        }
+        state.mixture = Mixture::new(count);
+        state.units = follows_data.then(|| Units::new(*memory));
+        self.express();
+    }
+
+    /// Does `work`. If that fails, the bank is as it was before, bit for bit.
+    ///
+    /// # Errors
+    /// Those of `work`.
+    pub fn all_or_nothing<X, E>(
+        &mut self,
+        work: impl FnOnce(&mut Self) -> Result<X, E>,
+    ) -> Result<X, E> {
+        let (before, theta) = (self.state.clone(), self.buffers.theta.clone());
+        work(self).inspect_err(|_| (self.state, self.buffers.theta) = (before, theta))
+    }
+
+    /// Takes the sample of p x n numbers `phi` and p x m numbers `y` with the noise covariance
+    /// Γ = `noise`.
+    ///
+    /// # Errors
+    /// [`Error`] names what was wrong, if no member can take the sample; the bank is as it was, bit for
+    /// bit.
+    pub fn update(
+        &mut self,
+        phi: &[T],
+        y: &[T],
+        noise: Noise<'_, T>,
+    ) -> Result<BankUpdate<'_, T>, Error> {
+        self.measure(phi)?;
+        let taken = self.update_members(y, noise);
+        let Taken { forgetting_factor, skipped, windup, asleep } = match taken {
+            Ok(taken) => taken,
+            Err(error) => {
+                if let Some(units) = &mut self.state.units {
+                    units.unchoose(|_, _| {});
+                }
+                return Err(error);
+            }
+        };
+        self.mix(noise);
+        let leverage = self.state.mixture.mean(&self.buffers.leverages, &self.buffers.awake);
+        self.learn(skipped.is_none());
+        self.follow();
+        let error = &self.buffers.error;
+        Ok(BankUpdate { error, leverage, forgetting_factor, skipped, windup, asleep })
+    }
+
+    /// φ in the units of the members.
+    fn measure(&mut self, phi: &[T]) -> Result<(), Error> {
+        let measured = self.buffers.phi.as_mut();
+        Error::check_length("phi", phi.len(), measured.len())?;
+        match &mut self.state.units {
+            None => measured.copy_from_slice(phi),
+            Some(units) => {
+                units.choose(phi, |_, _| {});
+                units.measure(phi, measured);
+            }
+        }
+        Ok(())
+    }
+
+    /// Each member takes the sample, or sleeps.
+    fn update_members(&mut self, y: &[T], noise: Noise<'_, T>) -> Result<Taken<T>, Error> {
+        let Buffers { phi, errors, leverages, awake, .. } = &mut self.buffers;
+        let BankState { members, mixture, .. } = &mut self.state;
+        let width = errors.len() / members.len();
+        let mut refused = None;
+        let mut taken =
+            Taken { forgetting_factor: T::ZERO, skipped: None, windup: true, asleep: 0 };
+        let (mut left_out, mut believed) = (0, T::ZERO);
+        for (i, member) in members.iter_mut().enumerate() {
+            let weight = mixture.weights()[i];
+            match member.update_with_noise(phi.as_ref(), y, noise) {
+                Ok(update) => {
+                    awake[i] = true;
+                    errors[i * width..(i + 1) * width].copy_from_slice(update.error);
+                    leverages[i] = update.leverage;
+                    taken.forgetting_factor += weight * update.forgetting_factor;
+                    taken.windup &= update.windup || weight == T::ZERO;
+                    taken.skipped = taken.skipped.or(update.skipped);
+                    left_out += usize::from(update.skipped.is_some());
+                    believed += weight;
+                }
+                // what is wrong with the sample itself is wrong for the first member, too
+                Err(error) if i == 0 && !matches!(error, Error::Range { .. }) => return Err(error),
+                Err(error) => {
+                    awake[i] = false;
+                    taken.asleep += 1;
+                    refused.get_or_insert(error);
+                }
+            }
+        }
+        if taken.asleep == members.len() {
+            return Err(refused.unwrap_or(Error::Memory));
+        }
+        if left_out + taken.asleep < members.len() {
+            taken.skipped = None;
+        }
+        taken.forgetting_factor = if believed > T::ZERO {
+            (taken.forgetting_factor / believed).min(T::ONE)
+        } else {
+            T::ONE
+        };
+        Ok(taken)
+    }
+
+    /// The errors of the mixture, and all errors whitened.
+    fn mix(&mut self, noise: Noise<'_, T>) {
+        let Buffers { errors, whitened, error, mixed, awake, root, .. } = &mut self.buffers;
+        let mixture = &self.state.mixture;
+        let targets = self.memory.targets();
+        mixture.errors(errors, awake, error);
+        whitened.copy_from_slice(errors);
+        mixed.copy_from_slice(error);
+        for errors in whitened.chunks_exact_mut(error.len()).chain([mixed.as_mut_slice()]) {
+            mixture::whiten(errors, targets, noise, root.as_mut());
+        }
+    }
+
+    /// The mixer learns from the sample, if it was `used`.
+    fn learn(&mut self, used: bool) {
+        let Self { mixer, memory, state, buffers, .. } = self;
+        let BankState { mixer: remembered, mixture, .. } = state;
+        if used {
+            let forecasts = Forecasts {
+                errors: &buffers.whitened,
+                mixed: &buffers.mixed,
+                leverages: &buffers.leverages,
+                awake: &buffers.awake,
+            };
+            mixture.note(&forecasts);
+            if mixture.samples() > WARM_UP * memory.parameters() as u64 {
+                mixer.learn(remembered, &forecasts);
+            }
+        }
+        mixture.weigh(|weights| mixer.weigh(remembered, weights));
+    }
+
+    /// Renews the units if that is due, and takes note of θ.
+    fn follow(&mut self) {
+        let BankState { members, units, .. } = &mut self.state;
+        if let Some(units) = units {
+            units.learn(self.buffers.phi.as_ref(), 1);
+            if let Some(ratios) = units.due() {
+                let largest = ratios.iter().fold(T::ONE, |largest, &r| largest.max(r));
+                let fits = |member: &AnyEstimator<T>| {
+                    let trace = member.own_factor().trace();
+                    trace * largest * largest < T::CEILING
+                };
+                if members.iter().all(fits) {
+                    members.iter_mut().for_each(|member| member.change_units(ratios));
+                    units.renew();
+                }
+            }
+        }
+        self.express();
+    }
+
+    /// θ of the mixture in the units of the user.
+    fn express(&mut self) {
+        let theta = self.buffers.theta.as_mut();
+        self.state.mixture.theta(&self.state.members, theta);
+        if let Some(units) = &self.state.units {
+            units.express(theta);
+        }
+    }
+}
+
+/// What the members did with a sample.
+struct Taken<T> {
+    forgetting_factor: T,
+    skipped: Option<Skip>,
+    windup: bool,
+    asleep: usize,
+}

@@ -1,0 +1,152 @@
+//! Reading a bank: predictions, θ, P, weights, memory, its members.
+
+use super::Bank;
+use crate::error::Error;
+use crate::estimator::AnyEstimator;
+use crate::memory::state::{State, Visitor};
+use crate::memory::Dynamic;
+use crate::memory::Memory;
+use crate::mixers::AnyMixer;
+use alloc::vec::Vec;
+use forgetting_kernels::kernel::functions::dot;
+use forgetting_kernels::{Kernels, Real};
+
+impl<T: Kernels> Bank<T> {
+    /// φθ for rows of n numbers `phi`; writes m numbers a row to `prediction`.
+    ///
+    /// # Errors
+    /// [`Error::Length`] names what does not fit.
+    pub fn predict(&self, phi: &[T], prediction: &mut [T]) -> Result<(), Error> {
+        let memory = self.memory;
+        let (n, m) = (memory.parameters(), memory.targets());
+        if !phi.len().is_multiple_of(n) {
+            return Err(Error::Length { parameter: "phi", length: phi.len(), expected: n });
+        }
+        Error::check_length("prediction", prediction.len(), phi.len() / n * m)?;
+        for (row, predicted) in phi.chunks_exact(n).zip(prediction.chunks_exact_mut(m)) {
+            for (theta, y) in self.theta().chunks_exact(n).zip(predicted) {
+                *y = dot(row, theta);
+            }
+        }
+        Ok(())
+    }
+
+    /// θ of the mixture, m x n numbers, one target after the other.
+    pub fn theta(&self) -> &[T] {
+        self.buffers.theta.as_ref()
+    }
+
+    /// w of each member for the next sample.
+    pub fn weights(&self) -> &[T] {
+        self.state.mixture.weights()
+    }
+
+    /// Over how many samples the mixture remembers: Σ w_i n/s̄_i.
+    pub fn memory_in_samples(&self) -> T {
+        self.state.mixture.memory(self.memory.parameters())
+    }
+
+    /// σ²: the variance of the whitened noise, over up to the last thousand samples; 0 before the first.
+    pub fn noise_variance(&self) -> T {
+        self.state.mixture.noise_variance()
+    }
+
+    /// P of the mixture as n x n numbers, with what the members disagree about. O(K n³).
+    pub fn covariance(&self, dense: &mut [T]) {
+        let memory = self.memory;
+        let (n, m) = (memory.parameters(), memory.targets());
+        let mut own = alloc::vec![T::ZERO; n * n];
+        let mut distance = alloc::vec![T::ZERO; n];
+        dense.fill(T::ZERO);
+        let per_target = self.noise_variance() * T::from_f64(m as f64);
+        for (i, (member, &weight)) in self.state.members.iter().zip(self.weights()).enumerate() {
+            if !(weight > T::ZERO) {
+                continue;
+            }
+            self.member_factor(i).reconstruct(&mut own);
+            dense.iter_mut().zip(&own).for_each(|(sum, &p)| *sum += weight * p);
+            for (t, theta) in member.theta().chunks_exact(n).enumerate() {
+                distance.copy_from_slice(theta);
+                if let Some(units) = &self.state.units {
+                    units.express(&mut distance);
+                }
+                let mixed = &self.theta()[t * n..(t + 1) * n];
+                distance.iter_mut().zip(mixed).for_each(|(own, &mixed)| *own -= mixed);
+                if per_target > T::ZERO && self.state.members.len() > 1 {
+                    add_square(dense, weight / per_target, &distance);
+                }
+            }
+        }
+    }
+
+    /// P of a member in the units of the user.
+    fn member_factor(&self, i: usize) -> crate::covariance::Factor<Dynamic<T>> {
+        let mut factor = self.state.members[i].own_factor().clone();
+        if let Some(units) = &self.state.units {
+            factor.express(units.reciprocals());
+        }
+        factor
+    }
+
+    /// Samples used since the start.
+    pub fn samples(&self) -> u64 {
+        self.state.mixture.samples()
+    }
+
+    /// The members. Where the bank follows the data, θ and P of a member are in units of the bank.
+    pub fn members(&self) -> &[AnyEstimator<T>] {
+        &self.state.members
+    }
+
+    /// What mixes them.
+    pub fn mixer(&self) -> &AnyMixer<Dynamic<T>> {
+        &self.mixer
+    }
+
+    /// Its sizes.
+    pub fn memory(&self) -> Dynamic<T> {
+        self.memory
+    }
+
+    /// Whether φ is measured in units that the data choose.
+    pub fn follows_data(&self) -> bool {
+        self.follows_data
+    }
+
+    /// 1/s_i, where the bank follows the data: its members are given φ_i/s_i.
+    pub fn reciprocal_units(&self) -> Option<&[T]> {
+        self.state.units.as_ref().map(|units| units.reciprocals())
+    }
+
+    /// Whether what the bank remembers is what it can: as after every sample.
+    pub fn is_sound(&self) -> bool {
+        let state = &self.state;
+        state.members.iter().all(AnyEstimator::is_sound)
+            && state.mixer.is_sound()
+            && state.mixture.is_sound()
+            && state.units.as_ref().is_none_or(State::is_sound)
+    }
+
+    /// Puts members of the same kind in the place of those that it has.
+    pub(crate) fn put_members(&mut self, members: Vec<AnyEstimator<T>>) {
+        self.state.members = members;
+        self.express();
+    }
+
+    /// Shows every number of the state but those of the members to `visitor`.
+    pub(crate) fn visit_own(&mut self, visitor: &mut dyn Visitor<T>) {
+        self.state.mixer.visit(visitor);
+        self.state.mixture.visit(visitor);
+        if let Some(units) = &mut self.state.units {
+            units.visit(visitor);
+        }
+        self.express();
+    }
+}
+
+/// A ← A + c·x·xᵀ
+fn add_square<T: Real>(matrix: &mut [T], c: T, x: &[T]) {
+    for (row, &own) in matrix.chunks_exact_mut(x.len()).zip(x) {
+        row.iter_mut().zip(x).for_each(|(sum, &other)| *sum += c * own * other);
+    }
+}

@@ -1,0 +1,109 @@
+//! A bank as bytes.
+//!
+//! | part | content |
+//! |---|---|
+//! | mark | `FGBNK` |
+//! | version | one byte |
+//! | number type | one byte, 4 or 8: the bytes of a number |
+//! | units | one byte: 1 where the units of φ are those of the data |
+//! | members | their number, 16 bits; each its length, 32 bits, and its bytes as an estimator |
+//! | mixer | its name and its parameters by name |
+//! | numbers | of mixer, weights and units, in the order of `visit` |
+//! | check | CRC-32 of all before it |
+
+use super::read::Reader;
+use super::write::Numbers;
+use super::{crc32, AnyEstimator, Error, Vec};
+use crate::bank::Bank;
+use crate::choice::bytes::write as choice;
+use crate::memory::Dynamic;
+use crate::mixers::{AnyMixer, Mixer};
+use forgetting_kernels::Kernels;
+
+pub(super) const MARK: &[u8; 5] = b"FGBNK";
+const VERSION: u8 = 1;
+
+impl<T: Kernels> Bank<T> {
+    /// The bank, configuration and state, as bytes.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] when a part of it is a function of the user's.
+    pub fn to_bytes(&self) -> Result<Vec<u8>, Error> {
+        let mut bytes = Vec::from(MARK.as_slice());
+        bytes.extend_from_slice(&[VERSION, T::BYTES as u8, u8::from(self.follows_data())]);
+        bytes.extend_from_slice(&(self.members().len() as u16).to_le_bytes());
+        for member in self.members() {
+            let member = member.to_bytes()?;
+            bytes.extend_from_slice(&(member.len() as u32).to_le_bytes());
+            bytes.extend_from_slice(&member);
+        }
+        let mixer = self.mixer();
+        choice(&mut bytes, mixer.about().name, |each| {
+            mixer.describe(&mut |name, value| each(name, value));
+        })?;
+        self.clone().visit_own(&mut Numbers(&mut bytes));
+        let check = crc32(&bytes);
+        bytes.extend_from_slice(&check.to_le_bytes());
+        Ok(bytes)
+    }
+
+    /// The bank that [`Bank::to_bytes`] saved.
+    ///
+    /// # Errors
+    /// [`Error::State`] says what is wrong with the bytes.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
+        let mut reader = Reader::new(&checked(bytes)?[MARK.len() + 1..]);
+        if usize::from(reader.byte()?) != T::BYTES {
+            return Err(Error::State { reason: "it holds numbers of another type" });
+        }
+        let follows_data = reader.byte()? == 1;
+        let count = reader.count()?;
+        let mut members = Vec::new();
+        for _ in 0..count {
+            let length = reader.size()?;
+            members.push(AnyEstimator::<T>::from_bytes(reader.take(length)?)?);
+        }
+        let (name, parameters) = reader.choice(0)?;
+        let mixer = AnyMixer::named(&name, &parameters, Dynamic::new(count, 1, 1)?)?;
+        // a new bank starts its members: they are put back
+        let mut bank = Self::with_units(members.clone(), mixer, follows_data)?;
+        bank.put_members(members);
+        bank.visit_own(&mut reader);
+        reader.finish()?;
+        if bank.is_sound() {
+            Ok(bank)
+        } else {
+            Err(Error::State { reason: "its numbers are not those of a bank" })
+        }
+    }
+}
+
+/// The bytes of a number in a saved bank: 4 or 8.
+///
+/// # Errors
+/// [`Error::State`] as for reading the bank.
+pub fn bank_number_type(bytes: &[u8]) -> Result<usize, Error> {
+    let body = checked(bytes)?;
+    body.get(MARK.len() + 1)
+        .map(|&width| usize::from(width))
+        .ok_or(Error::State { reason: "it is truncated" })
+}
+
+/// The bytes without their check, if they are those of a bank and unaltered.
+fn checked(bytes: &[u8]) -> Result<&[u8], Error> {
+    let refuse = |reason| Err(Error::State { reason });
+    if !bytes.starts_with(MARK) {
+        return refuse("it is not a saved bank of estimators");
+    }
+    match bytes.get(MARK.len()) {
+        Some(&VERSION) if bytes.len() >= MARK.len() + 5 => {}
+        Some(&version) if version > VERSION => return refuse("it was written by a later version"),
+        _ => return refuse("it is truncated"),
+    }
+    let (body, check) = bytes.split_at(bytes.len() - 4);
+    if crc32(body).to_le_bytes() == check {
+        Ok(body)
+    } else {
+        refuse("it is truncated or altered: the check fails")
+    }
+}

@@ -1,0 +1,190 @@
+//! The units in which an estimator measures regressors that it was told nothing about.
+//!
+//! ```text
+//! x_i = φ_i / s_i        what the recursion is given in the place of φ_i
+//! s_i = |φ_i|            when φ_i is first other than 0, then
+//! s_i = rms φ_i          over all φ_i ≠ 0 so far, renewed after 2n, 4n, 8n, … samples
+//! ```
+//!
+//! Whatever the recursion does then depends on x alone: no prediction depends on the units in which
+//! a user writes φ, and every setting of a rule is a pure number. When the units are renewed by
+//! r = s/s₊, P becomes S P S with S = diag(s₊/s) and θ becomes S θ: what they say of the parameters
+//! is the same. A first value that is not typical therefore counts for 2n samples and no more.
+//!
+//! Only x is squared and summed, never φ, so that no unit can overflow.
+
+use crate::memory::state::{State, Visitor, MOST_SAMPLES};
+use crate::memory::Memory;
+use forgetting_kernels::Real;
+
+/// s, and what it is made from.
+#[derive(Clone, Debug)]
+pub(crate) struct Units<M: Memory> {
+    memory: M,
+    /// 1/s_i; 1 until φ_i has been other than 0
+    reciprocals: M::Vector,
+    /// Σ x_i² over the x_i ≠ 0
+    squares: M::Vector,
+    /// how many of them there were; 0 for a parameter whose regressor has always been 0
+    counts: M::Vector,
+    /// samples measured
+    samples: u64,
+    /// not state: s₊/s of a renewal
+    ratios: M::Vector,
+}
+
+impl<M: Memory> Units<M> {
+    /// Before the first sample: all units are 1.
+    pub fn new(memory: M) -> Self {
+        let mut reciprocals = memory.vector();
+        reciprocals.as_mut().fill(M::Real::ONE);
+        let (squares, counts, ratios) = (memory.vector(), memory.vector(), memory.vector());
+        Self { memory, reciprocals, squares, counts, samples: 0, ratios }
+    }
+
+    /// 1/s_i
+    pub fn reciprocals(&self) -> &[M::Real] {
+        self.reciprocals.as_ref()
+    }
+
+    /// Whether regressor i has been other than 0.
+    #[inline]
+    fn has_unit(&self, i: usize) -> bool {
+        self.counts.as_ref()[i] > M::Real::ZERO
+    }
+
+    /// How many of `most` samples can be measured before the units change: those before the first
+    /// in which a regressor without a unit is other than 0, and before the next renewal.
+    pub fn room(&self, phi: &[M::Real], most: usize) -> usize {
+        let n = self.memory.parameters();
+        let left = (self.next_renewal() - self.samples).min(most as u64) as usize;
+        if (0..n).all(|i| self.has_unit(i)) {
+            return left;
+        }
+        let is_new = |phi: &[M::Real]| (0..n).any(|i| phi[i] != M::Real::ZERO && !self.has_unit(i));
+        let samples = phi.chunks_exact(n * self.memory.rows()).take(left);
+        samples.take_while(|sample| !sample.chunks_exact(n).any(is_new)).count()
+    }
+
+    /// Chooses units for the regressors that have none and are other than 0 in the sample `phi`;
+    /// `each` is told which, and 1/s_i.
+    pub fn choose(&mut self, phi: &[M::Real], mut each: impl FnMut(usize, M::Real)) {
+        let n = self.memory.parameters();
+        for i in 0..n {
+            if self.has_unit(i) {
+                continue;
+            }
+            let column = phi.iter().skip(i).step_by(n);
+            let largest = column.fold(M::Real::ZERO, |most, x| most.max(x.abs()));
+            if largest > M::Real::ZERO && largest.is_finite() {
+                let reciprocal = (M::Real::ONE / largest).min(M::Real::CEILING);
+                self.reciprocals.as_mut()[i] = reciprocal;
+                each(i, reciprocal);
+            }
+        }
+    }
+
+    /// Takes back what [`Units::choose`] chose, since the sample was refused; `each` is told for which
+    /// parameters, and n.
+    pub fn unchoose(&mut self, mut each: impl FnMut(usize, usize)) {
+        let n = self.memory.parameters();
+        for i in 0..n {
+            if !self.has_unit(i) {
+                self.reciprocals.as_mut()[i] = M::Real::ONE;
+                each(i, n);
+            }
+        }
+    }
+
+    /// x for any number of rows φ.
+    #[inline]
+    pub fn measure(&self, phi: &[M::Real], measured: &mut [M::Real]) {
+        let n = self.memory.parameters();
+        let reciprocals = &self.reciprocals.as_ref()[..n];
+        for (row, measured) in phi.chunks_exact(n).zip(measured.chunks_exact_mut(n)) {
+            for ((x, &phi), &reciprocal) in measured.iter_mut().zip(row).zip(reciprocals) {
+                *x = phi * reciprocal;
+            }
+        }
+    }
+
+    /// Multiplies numbers in units of 1/x, n after n, by 1/s: θ as the recursion has it to θ.
+    #[inline]
+    pub fn express(&self, thetas: &mut [M::Real]) {
+        let n = self.memory.parameters();
+        for theta in thetas.chunks_exact_mut(n) {
+            for (theta, &reciprocal) in theta.iter_mut().zip(self.reciprocals.as_ref()) {
+                *theta *= reciprocal;
+            }
+        }
+    }
+
+    /// Takes note of the rows of `samples` samples as they were measured.
+    #[inline]
+    pub fn learn(&mut self, measured: &[M::Real], samples: u64) {
+        let n = self.memory.parameters();
+        let (squares, counts) = (self.squares.as_mut(), self.counts.as_mut());
+        for row in measured.chunks_exact(n) {
+            for ((&x, square), count) in row.iter().zip(&mut *squares).zip(&mut *counts) {
+                *square += x * x;
+                let other = if x == M::Real::ZERO { M::Real::ZERO } else { M::Real::ONE };
+                *count += other;
+            }
+        }
+        self.samples += samples;
+    }
+
+    /// The number of samples after which units are next renewed.
+    fn next_renewal(&self) -> u64 {
+        let first = 2 * self.memory.parameters() as u64;
+        let cycles = self.samples / first;
+        first.saturating_mul((cycles + 1).next_power_of_two())
+    }
+
+    /// The s₊/s of a renewal, if one is due after the last sample.
+    pub fn due(&mut self) -> Option<&[M::Real]> {
+        let first = 2 * self.memory.parameters() as u64;
+        if !self.samples.is_multiple_of(first) || !(self.samples / first).is_power_of_two() {
+            return None;
+        }
+        let (squares, counts) = (self.squares.as_ref(), self.counts.as_ref());
+        for (i, ratio) in self.ratios.as_mut().iter_mut().enumerate() {
+            let mean = squares[i] / counts[i];
+            // a mean that is not a number is that of no values
+            *ratio =
+                if mean > M::Real::ZERO { Self::within_range(mean.sqrt()) } else { M::Real::ONE };
+        }
+        Some(self.ratios.as_ref())
+    }
+
+    /// No further in one renewal than P can follow without leaving its range.
+    fn within_range(ratio: M::Real) -> M::Real {
+        let most = M::Real::CEILING.sqrt().sqrt().sqrt();
+        ratio.min(most).max(M::Real::ONE / most)
+    }
+
+    /// Makes the renewal that [`Units::due`] found.
+    pub fn renew(&mut self) {
+        let (squares, reciprocals) = (self.squares.as_mut(), self.reciprocals.as_mut());
+        for (i, &ratio) in self.ratios.as_ref().iter().enumerate() {
+            squares[i] = squares[i] / ratio / ratio;
+            reciprocals[i] /= ratio;
+        }
+    }
+}
+
+impl<M: Memory> State<M::Real> for Units<M> {
+    fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
+        visitor.reals(self.reciprocals.as_mut());
+        visitor.reals(self.squares.as_mut());
+        visitor.reals(self.counts.as_mut());
+        visitor.whole(&mut self.samples);
+    }
+
+    fn is_sound(&self) -> bool {
+        let sums = [self.squares.as_ref(), self.counts.as_ref()];
+        self.samples <= MOST_SAMPLES
+            && sums.iter().all(|sums| sums.iter().all(|x| *x >= M::Real::ZERO && x.is_finite()))
+            && self.reciprocals.as_ref().iter().all(|x| *x > M::Real::ZERO && x.is_finite())
+    }
+}
