@@ -26,6 +26,7 @@ __all__ = [
     "__version__",
     "axes",
     "bounds",
+    "numbers",
 ]
 
 __version__: str
@@ -240,7 +241,7 @@ class Fleet:
 @disjoint_base
 class InformationWindow:
     def __new__(cls, parameters: int, window: int, rows: int = 1) -> InformationWindow: ...
-    def add(self, phi: ArrayLike) -> None: ...
+    def add(self, phi: ArrayLike, gamma: ArrayLike | None = None) -> None: ...
     @property
     def information(self) -> NDArray[np.float64]: ...
     @property
@@ -250,6 +251,7 @@ class InformationWindow:
     @property
     def window(self) -> int: ...
 
+def numbers(name: str, values: ArrayLike) -> NDArray[np.float64]: ...
 def axes() -> list[dict[str, Any]]: ...
 def bounds(
     rule: Rule,

@@ -68,8 +68,8 @@ def _plain(value: Any, kind: str) -> Any:
     """
     if kind in ("matrix", "list") and value is not None and not isinstance(value, str):
         try:
-            return np.asarray(value, dtype=float).tolist()
-        except (TypeError, ValueError):
+            return _core.numbers(kind, value).tolist()
+        except _core.InvalidInput:
             return value
     if isinstance(value, Real) and not isinstance(value, bool):
         number = float(value)

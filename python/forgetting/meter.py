@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._core import InformationWindow, InvalidInput
+from ._core import InformationWindow
 
 
 class ExcitationMeter(InformationWindow):
@@ -54,15 +54,7 @@ class ExcitationMeter(InformationWindow):
         InvalidInput
             For a wrong shape, NaN or Inf, or a gamma that is not positive definite.
         """
-        if gamma is None:
-            super().add(phi)
-            return
-        noise = np.atleast_2d(np.asarray(gamma, dtype=float))
-        try:
-            root = np.linalg.cholesky(noise)
-            super().add(np.linalg.solve(root, np.atleast_2d(np.asarray(phi, dtype=float))))
-        except np.linalg.LinAlgError:
-            raise InvalidInput(f"gamma = {gamma!r}, allowed: positive definite") from None
+        super().add(phi, gamma)
 
     def _eigenvalues(self) -> np.ndarray:
         values: np.ndarray = np.linalg.eigvalsh(self.information)

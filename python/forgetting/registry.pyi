@@ -203,9 +203,10 @@ class CovarianceResetting(Rule):
       false alarm comes about once in 40 000 samples, and innovations whose variance suddenly is
       ten times as large are found after 4 to 5 samples on average.
 
-    At a reset the rule still chooses what is measured, and its own state goes on. A sample that
-    it skips is skipped, and the criterion does not see it, nor one that a gate holds or freezes.
-    The forgetting factor is the rule's.
+    At a reset P_∞ is the P that the rule finds: it chooses by it what is measured, and whatever its
+    state keeps of P starts anew from it; the rest of its state goes on. A sample that it skips is
+    skipped, and the criterion does not see it, nor one that a gate holds or freezes. The
+    forgetting factor is the rule's.
 
     - Proper (A1): if P ≤ P_∞ at every reset and the rule is proper.
     - P̄ bounded above without excitation (A2): if the rule's is.

@@ -28,13 +28,16 @@ BAD_ARGUMENTS = [
     ({"weighting": "nonsense"}, r'weighting = "nonsense" is not known'),
     ({"initial_covariance": -1}, r"initial_covariance\[0\] = -1, allowed: positive"),
     ({"initial_covariance": [1, np.inf, 1]}, r"initial_covariance\[1\] = inf"),
-    ({"initial_covariance": [1, 2]}, r"initial_covariance has 2 elements, expected 3"),
+    (
+        {"initial_covariance": [1, 2]},
+        r"initial_covariance has shape \(2,\), expected \(\), \(3,\) or",
+    ),
     ({"initial_covariance": np.ones((3, 3))}, r"initial_covariance is not positive definite"),
     (
         {"initial_covariance": np.triu(np.ones((3, 3)))},
         r"initial_covariance\[3\] = 0, allowed: a sym",
     ),
-    ({"initial_theta": [1, 2]}, r"initial_theta has shape \[2\], expected \(3,\)"),
+    ({"initial_theta": [1, 2]}, r"initial_theta has shape \(2,\), expected \(3,\)"),
     ({"initial_theta": [1, 2, np.nan]}, r"initial_theta\[2\] = NaN"),
     ({"dtype": "int32"}, r'dtype = "int32", allowed: "float64", "float32"'),
 ]
@@ -47,8 +50,8 @@ def test_constructor(arguments, message):
 
 
 BAD_SAMPLES = [
-    (([1, 2], 1.0), r"phi has 2 elements, expected 3"),
-    (([1, 2, 3], [1.0, 2.0]), r"y has 2 elements, expected 1"),
+    (([1, 2], 1.0), r"phi has shape \(2,\), expected \(3,\)"),
+    (([1, 2, 3], [1.0, 2.0]), r"y has shape \(2,\), expected \(\)"),
     (([1, np.nan, 3], 1.0), r"phi\[1\] = NaN, allowed: finite"),
     (([1, 2, -np.inf], 1.0), r"phi\[2\] = -inf, allowed: finite"),
     (([1, 2, 3], np.inf), r"y\[0\] = inf, allowed: finite"),
@@ -56,7 +59,7 @@ BAD_SAMPLES = [
     (([1, 2, 3], None), r"y must hold numbers|y\[0\] = NaN"),
     (([1, 2, 3], 1.0, 0.0), r"gamma = 0, allowed: positive"),
     (([1, 2, 3], 1.0, np.nan), r"gamma = NaN, allowed: positive"),
-    (([1, 2, 3], 1.0, np.eye(2)), r"gamma has 4 elements, expected 1"),
+    (([1, 2, 3], 1.0, np.eye(2)), r"gamma has shape \(2, 2\), expected \(\)"),
     (([1e200, 2, 3], 1.0), r"exceeds the numerical range"),
     (([1, 2, 3], 1e300), r"exceeds the numerical range"),
 ]

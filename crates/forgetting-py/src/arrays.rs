@@ -3,8 +3,8 @@
 use crate::errors::{invalid, raise};
 use forgetting_runtime::{Array, Elements, Innovation, NumberType, Numbers, View};
 use numpy::{
-    Element, IxDyn, PyArray, PyArrayDescr, PyArrayDyn, PyArrayMethods, PyUntypedArray,
-    PyUntypedArrayMethods,
+    Element, IxDyn, PyArray, PyArrayDescr, PyArrayDescrMethods, PyArrayDyn, PyArrayMethods,
+    PyUntypedArray, PyUntypedArrayMethods,
 };
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -170,21 +170,45 @@ fn contiguous<'py, T: Number>(
     name: &str,
     values: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
-    if let Ok(array) = values.cast::<PyArray<T, IxDyn>>() {
-        if is_slice(array) {
-            return Ok(array.clone());
-        }
-    }
     static CONVERT: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
     let py = values.py();
     let convert = CONVERT.get_or_try_init(py, || -> PyResult<Py<PyAny>> {
         Ok(py.import("numpy")?.getattr("require")?.unbind())
     })?;
+    let array = real_numbers(name, values)?;
     let array = convert
         .bind(py)
-        .call1((values, T::TYPE.name(), "CA"))
+        .call1((array, T::TYPE.name(), "CA"))
         .map_err(|error| invalid(format!("{name} must hold numbers ({error})")))?;
     Ok(array.cast_into::<PyArray<T, IxDyn>>()?)
+}
+
+/// `values` as an array that NumPy can convert without losing a part of them.
+///
+/// # Errors
+/// `InvalidInput` names the parameter: complex numbers would lose their imaginary part, a masked
+/// array its mask, dates their unit.
+fn real_numbers<'py>(
+    name: &str,
+    values: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyUntypedArray>> {
+    let numpy = values.py().import("numpy")?;
+    let array = numpy
+        .call_method1("asanyarray", (values,))
+        .map_err(|error| invalid(format!("{name} must hold numbers ({error})")))?;
+    let array = array.cast_into::<PyUntypedArray>()?;
+    if array.is_instance(&numpy.getattr("ma")?.getattr("MaskedArray")?)? {
+        let instead = "put NaN where a value is missing";
+        return Err(invalid(format!("{name} must hold numbers, not a masked array: {instead}")));
+    }
+    let what = match array.dtype().kind() {
+        b'c' => "complex ones",
+        b'M' | b'm' => "dates or times",
+        b'S' | b'U' => "text",
+        b'V' => "records",
+        _ => return Ok(array),
+    };
+    Err(invalid(format!("{name} must hold numbers, not {what} ({})", array.dtype())))
 }
 
 /// `values` if it is an array of `T` as NumPy itself makes them, in C order: a few comparisons tell.
@@ -205,6 +229,13 @@ fn native<'a, 'py, T: Number>(
 #[inline(always)]
 fn is_slice<T: Element>(array: &Bound<'_, PyArrayDyn<T>>) -> bool {
     array.is_c_contiguous() && array.data().is_aligned()
+}
+
+/// The numbers of `values`, an argument called `name`, as an array of float64: what every function
+/// takes for numbers.
+#[pyfunction]
+pub fn numbers<'py>(name: &str, values: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    Ok(contiguous::<f64>(name, values)?.into_any())
 }
 
 /// An array for Python.

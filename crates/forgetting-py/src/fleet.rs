@@ -3,7 +3,7 @@
 use crate::arrays::{optional, output, Input};
 use crate::errors::{invalid, raise};
 use crate::rls::Rls;
-use crate::settings::{names, read_choices, read_optional, view, write_description};
+use crate::settings::{names, read_choices, read_optional, view, write_description, Whole};
 use forgetting_runtime::{check_shape, threads, NumberType, Settings};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyTypeError;
@@ -69,8 +69,8 @@ impl Fleet {
         gate=None, initial_covariance=None, initial_theta=None, dtype="float64", threads=None))]
     #[allow(clippy::too_many_arguments, reason = "Python's keywords")]
     fn new(
-        count: i64,
-        parameters: i64,
+        count: Whole,
+        parameters: Whole,
         rule: Option<&Bound<'_, PyAny>>,
         forgetting_factor: Option<&Bound<'_, PyAny>>,
         weighting: Option<&Bound<'_, PyAny>>,
@@ -78,10 +78,11 @@ impl Fleet {
         initial_covariance: Option<&Bound<'_, PyAny>>,
         initial_theta: Option<&Bound<'_, PyAny>>,
         dtype: &str,
-        threads: Option<i64>,
+        threads: Option<Whole>,
     ) -> PyResult<Self> {
         let number_type = NumberType::named(dtype).map_err(raise)?;
-        let threads = forgetting_runtime::threads(threads).map_err(raise)?;
+        let threads =
+            forgetting_runtime::threads(threads.map(|threads| threads.0)).map_err(raise)?;
         let factor = read_optional("forgetting_factor", forgetting_factor, number_type)?;
         let covariance = read_optional("initial_covariance", initial_covariance, number_type)?;
         let theta = read_optional("initial_theta", initial_theta, number_type)?;
@@ -93,7 +94,8 @@ impl Fleet {
             ..choices
         };
         let factor = view("forgetting_factor", &factor)?;
-        let mut fleet = forgetting_runtime::Fleet::new(count, &settings, factor).map_err(raise)?;
+        let mut fleet =
+            forgetting_runtime::Fleet::new(count.0, &settings, factor).map_err(raise)?;
         fleet.set_threads(threads);
         Ok(Self(fleet))
     }
@@ -121,8 +123,8 @@ impl Fleet {
     }
 
     #[setter]
-    fn set_threads(&mut self, count: Option<i64>) -> PyResult<()> {
-        self.0.set_threads(threads(count).map_err(raise)?);
+    fn set_threads(&mut self, count: Option<Whole>) -> PyResult<()> {
+        self.0.set_threads(threads(count.map(|count| count.0)).map_err(raise)?);
         Ok(())
     }
 
@@ -166,8 +168,8 @@ impl Fleet {
     }
 
     /// The covariance P of the stream at `index`, (n, n), in units of 1/phi**2.
-    fn covariance<'py>(&self, py: Python<'py>, index: i64) -> PyResult<Bound<'py, PyAny>> {
-        output(py, self.0.covariance(index).map_err(raise)?)
+    fn covariance<'py>(&self, py: Python<'py>, index: Whole) -> PyResult<Bound<'py, PyAny>> {
+        output(py, self.0.covariance(index.0).map_err(raise)?)
     }
 
     /// How far each estimate can be trusted now, in O(n) a stream.
@@ -262,9 +264,9 @@ impl Fleet {
             return slf.borrow_mut().0.append(&other).map_err(raise);
         }
         let count = more
-            .extract::<i64>()
+            .extract::<Whole>()
             .map_err(|_| invalid(format!("more = {more:?}, allowed: a whole number or a Fleet")))?;
-        slf.borrow_mut().0.grow(count).map_err(raise)
+        slf.borrow_mut().0.grow(count.0).map_err(raise)
     }
 
     /// Back to the initial estimate and covariance, as if no sample had been seen.
@@ -342,8 +344,10 @@ impl Fleet {
 }
 
 fn read_index(index: &Bound<'_, PyAny>) -> PyResult<i64> {
-    let whole = index.extract();
-    whole.map_err(|_| PyTypeError::new_err("the index of a stream is a whole number"))
+    let whole = index.extract::<Whole>();
+    whole
+        .map(|index| index.0)
+        .map_err(|_| PyTypeError::new_err("the index of a stream is a whole number"))
 }
 
 /// A yes or no for each stream, copied.

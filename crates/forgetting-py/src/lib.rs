@@ -29,6 +29,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("SKIPPED", registry::skip_codes(module.py())?)?;
     module.add("GATE", registry::gate_codes(module.py())?)?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add_function(wrap_pyfunction!(arrays::numbers, module)?)?;
     module.add_function(wrap_pyfunction!(registry::axes, module)?)?;
     module.add_function(wrap_pyfunction!(registry::bounds, module)?)
 }

@@ -3,7 +3,9 @@
 use crate::arrays::{output, output_or_float, Input};
 use crate::errors::raise;
 use crate::run::Run;
-use crate::settings::{names, read_choices, read_optional, view, write_description, write_health};
+use crate::settings::{
+    names, read_choices, read_optional, view, write_description, write_health, Whole,
+};
 use crate::update::Update;
 use forgetting_runtime::{size, Estimator, Missing, NumberType, Settings};
 use pyo3::prelude::*;
@@ -59,16 +61,18 @@ pub struct Rls {
 #[pymethods]
 impl Rls {
     #[new]
-    #[pyo3(signature = (parameters, *, rule=None, weighting=None, gate=None, rows=1, targets=1,
-        initial_covariance=None, initial_theta=None, dtype="float64", monitor=false))]
+    #[pyo3(signature = (parameters, *, rule=None, weighting=None, gate=None, rows=Whole(1), targets=Whole(1),
+        initial_covariance=None, initial_theta=None, dtype="float64", monitor=false),
+        text_signature = "(parameters, *, rule=None, weighting=None, gate=None, rows=1, targets=1, \
+        initial_covariance=None, initial_theta=None, dtype='float64', monitor=False)")]
     #[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn new(
-        parameters: i64,
+        parameters: Whole,
         rule: Option<&Bound<'_, PyAny>>,
         weighting: Option<&Bound<'_, PyAny>>,
         gate: Option<&Bound<'_, PyAny>>,
-        rows: i64,
-        targets: i64,
+        rows: Whole,
+        targets: Whole,
         initial_covariance: Option<&Bound<'_, PyAny>>,
         initial_theta: Option<&Bound<'_, PyAny>>,
         dtype: &str,
@@ -79,8 +83,8 @@ impl Rls {
         let theta = read_optional("initial_theta", initial_theta, number_type)?;
         let choices = read_choices(parameters, rule, weighting, gate)?;
         let settings = Settings {
-            rows: size("rows", rows).map_err(raise)?,
-            targets: size("targets", targets).map_err(raise)?,
+            rows: size("rows", rows.0).map_err(raise)?,
+            targets: size("targets", targets.0).map_err(raise)?,
             number_type,
             initial_covariance: view("initial_covariance", &covariance)?,
             initial_theta: view("initial_theta", &theta)?,
@@ -238,8 +242,8 @@ impl Rls {
     ) -> PyResult<Update> {
         let (phi, y) = (self.input("phi", phi)?, self.input("y", y)?);
         let gamma = gamma.map(|gamma| self.input("gamma", gamma)).transpose()?;
-        let gamma = gamma.as_ref().map(Input::numbers).transpose()?;
-        self.estimator.update(phi.numbers()?, y.numbers()?, gamma).map(Update).map_err(raise)
+        let (phi, y, gamma) = (phi.view("phi")?, y.view("y")?, view("gamma", &gamma)?);
+        self.estimator.update(phi, y, gamma).map(Update).map_err(raise)
     }
 
     /// Take a whole record, without Python in the loop and without holding the interpreter.

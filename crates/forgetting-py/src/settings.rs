@@ -4,15 +4,17 @@ use crate::arrays::{output, Input};
 use crate::choice::{read, read_forgetting_factor, read_gate, write};
 use crate::errors::raise;
 use forgetting_runtime::{size, Description, Health, NumberType, Settings, View};
+use pyo3::exceptions::PyOverflowError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use pyo3::Borrowed;
 
 /// The settings that choose a rule, a weighting and a gate, for n = `parameters`.
 ///
 /// # Errors
 /// `InvalidInput` names what is neither a name nor an object of its kind.
 pub fn read_choices(
-    parameters: i64,
+    Whole(parameters): Whole,
     rule: Option<&Bound<'_, PyAny>>,
     weighting: Option<&Bound<'_, PyAny>>,
     gate: Option<&Bound<'_, PyAny>>,
@@ -25,6 +27,24 @@ pub fn read_choices(
         gate: read_gate(gate)?,
         ..Settings::new(parameters)
     })
+}
+
+/// A whole number of Python's, whose numbers have no largest: one beyond 64 bits is the largest of
+/// them, to be refused by whoever knows what is allowed.
+#[derive(Clone, Copy)]
+pub struct Whole(pub i64);
+
+impl<'py> FromPyObject<'_, 'py> for Whole {
+    type Error = PyErr;
+
+    fn extract(number: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        match number.extract::<i64>() {
+            Err(error) if error.is_instance_of::<PyOverflowError>(number.py()) => {
+                Ok(Self(if number.gt(0)? { i64::MAX } else { i64::MIN }))
+            }
+            whole => whole.map(Self),
+        }
+    }
 }
 
 /// Numbers that may be left out.

@@ -2,6 +2,7 @@
 
 use crate::arrays::{output, Input};
 use crate::errors::raise;
+use crate::settings::{read_optional, view, Whole};
 use forgetting_runtime::NumberType;
 use pyo3::prelude::*;
 
@@ -17,16 +18,18 @@ pub struct InformationWindow(forgetting_runtime::InformationWindow);
 #[pymethods]
 impl InformationWindow {
     #[new]
-    #[pyo3(signature = (parameters, window, rows=1))]
-    fn new(parameters: i64, window: i64, rows: i64) -> PyResult<Self> {
-        let window = forgetting_runtime::InformationWindow::new(parameters, window, rows);
+    #[pyo3(signature = (parameters, window, rows=Whole(1)), text_signature = "(parameters, window, rows=1)")]
+    fn new(parameters: Whole, window: Whole, rows: Whole) -> PyResult<Self> {
+        let window = forgetting_runtime::InformationWindow::new(parameters.0, window.0, rows.0);
         window.map(Self).map_err(raise)
     }
 
-    /// Take one sample, whitened: (n,) or (rows, n).
-    fn add(&mut self, phi: &Bound<'_, PyAny>) -> PyResult<()> {
+    /// Take one sample: (n,) or (rows, n), with the noise covariance gamma.
+    #[pyo3(signature = (phi, gamma=None))]
+    fn add(&mut self, phi: &Bound<'_, PyAny>, gamma: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
         let phi = Input::read("phi", phi, NumberType::F64)?;
-        self.0.add(phi.numbers()?).map_err(raise)
+        let gamma = read_optional("gamma", gamma, NumberType::F64)?;
+        self.0.add(phi.view("phi")?, view("gamma", &gamma)?).map_err(raise)
     }
 
     /// The sum, (n, n), in units of phi**2.

@@ -5,6 +5,7 @@ use crate::error::Error;
 use crate::function::{for_gate, for_rate, for_rule};
 use crate::number::{Number, View};
 use crate::settings::Settings;
+use crate::shape;
 use forgetting::gates::{AnyGate, GATES};
 use forgetting::rates::{AnyRate, RATES};
 use forgetting::rules::{Rule, RULES};
@@ -76,21 +77,23 @@ fn prior<T: Number>(
     let Some(covariance) = covariance else {
         return Ok(Prior::of_data(memory));
     };
-    let numbers = T::read(covariance.numbers());
-    Ok(match (covariance.shape().len(), &*numbers) {
-        (0, [variance]) => Prior::scalar(memory, *variance),
-        (1, variances) => Prior::diagonal(memory, variances),
-        (_, covariance) => Prior::dense(memory, covariance),
+    let (n, numbers) = (memory.parameters(), T::read(covariance.numbers()));
+    Ok(match (covariance.shape(), &*numbers) {
+        ([], [variance]) => Prior::scalar(memory, *variance),
+        (shape, variances) if shape == [n] => Prior::diagonal(memory, variances),
+        (shape, covariance) if shape == [n, n] => Prior::dense(memory, covariance),
+        (shape, _) => {
+            let allowed = shape::either(&[vec![], vec![n], vec![n, n]]);
+            return Err(Error::shape("initial_covariance", shape, allowed));
+        }
     }?)
 }
 
 /// θ as (n,) or (n, targets), one target after the other.
 fn by_target<T: Number>(memory: Dynamic<T>, theta: View<'_>) -> Result<Vec<T>, Error> {
     let (n, m) = (memory.parameters(), memory.targets());
-    let shape = theta.shape();
-    if shape != [n, m] && !(m == 1 && shape == [n]) {
-        let expected = if m == 1 { format!("({n},)") } else { format!("({n}, {m})") };
-        return Err(Error::shape("initial_theta", shape, expected));
+    if theta.shape() != [n] || m > 1 {
+        shape::check("initial_theta", theta.shape(), &[n], &[m])?;
     }
     let theta = T::read(theta.numbers());
     Ok((0..m).flat_map(|t| (0..n).map(move |i| (i, t))).map(|(i, t)| theta[i * m + t]).collect())

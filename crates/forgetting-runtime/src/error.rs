@@ -1,5 +1,6 @@
 //! What is refused, and how it is said in every language.
 
+use crate::shape::tuple;
 use std::fmt;
 
 /// Why something was refused. Whatever was refused has changed nothing.
@@ -149,7 +150,7 @@ impl fmt::Display for Error {
             Self::Stream { stream, error } => write!(f, "stream {stream}: {error}"),
             Self::NoStream { stream, count } => write!(f, "stream {stream} of a fleet of {count}"),
             Self::Shape { parameter, shape, expected } => {
-                write!(f, "{parameter} has shape {shape:?}, expected {expected}")
+                write!(f, "{parameter} has shape {}, expected {expected}", tuple(shape))
             }
             Self::Dimensions { parameter, dimensions } => {
                 write!(f, "{parameter} has {dimensions} dimensions, allowed: 0, 1 or 2")
@@ -177,5 +178,5 @@ pub fn check_shape(parameter: &str, shape: &[usize], expected: &[usize]) -> Resu
     if shape == expected {
         return Ok(());
     }
-    Err(Error::shape(parameter, shape, format!("{expected:?}")))
+    Err(Error::shape(parameter, shape, tuple(expected)))
 }

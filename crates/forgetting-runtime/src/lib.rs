@@ -33,6 +33,7 @@ mod fleet;
 mod function;
 mod number;
 mod settings;
+mod shape;
 mod update;
 mod window;
 

@@ -1,7 +1,8 @@
 //! One sample in one call.
 
 use crate::error::Error;
-use crate::number::{Array, Elements, Number, Numbers};
+use crate::number::{Array, Elements, Number, View};
+use crate::shape;
 use forgetting::{Answer, AnyEstimator, Memory, Noise, Real, Skip};
 
 /// One number a row and target of a sample.
@@ -90,24 +91,40 @@ impl Update {
     }
 }
 
-/// Updates `estimator` with one sample; Γ is 1, a number or p x p numbers.
+/// Updates `estimator` with one sample: φ (p, n), y (p, m) and Γ, 1, () or (p, p).
 #[inline]
 pub(crate) fn update<T: Number>(
     estimator: &mut AnyEstimator<T>,
-    phi: Numbers<'_>,
-    y: Numbers<'_>,
-    gamma: Option<Numbers<'_>>,
+    phi: View<'_>,
+    y: View<'_>,
+    gamma: Option<View<'_>>,
 ) -> Result<Update, Error> {
     let memory = estimator.prior().memory();
+    let (n, p, m) = (memory.parameters(), memory.rows(), memory.targets());
+    shape::check("phi", phi.shape(), &[], &[p, n])?;
+    shape::check("y", y.shape(), &[], &[p, m])?;
+    if let Some(gamma) = &gamma {
+        check_gamma(gamma.shape(), p)?;
+    }
     if memory.rows() > 1 {
         estimator.keep_innovations(true);
     }
-    let gamma = gamma.map(T::read);
+    let gamma = gamma.map(|gamma| T::read(gamma.numbers()));
     let noise = match gamma.as_deref() {
         None => Noise::Unit,
         Some([scalar]) => Noise::Scalar(*scalar),
         Some(full) => Noise::Full(full),
     };
-    let update = estimator.update_with_noise(&T::read(phi), &T::read(y), noise)?;
-    Update::new(&update, memory.targets())
+    let (phi, y) = (T::read(phi.numbers()), T::read(y.numbers()));
+    let update = estimator.update_with_noise(&phi, &y, noise)?;
+    Update::new(&update, m)
+}
+
+/// Refuses a Γ of one sample that is neither a number nor p x p numbers.
+pub(crate) fn check_gamma(gamma: &[usize], p: usize) -> Result<(), Error> {
+    if gamma.is_empty() || shape::fits(gamma, &[p, p]) {
+        return Ok(());
+    }
+    let allowed = if p == 1 { shape::forms(&[], &[1, 1]) } else { format!("() or ({p}, {p})") };
+    Err(Error::shape("gamma", gamma, allowed))
 }

@@ -1,14 +1,18 @@
 //! The information of the last samples.
 
 use crate::error::Error;
-use crate::number::{Array, Elements, Number, Numbers};
+use crate::number::{Array, Elements, Number, View};
 use crate::settings::size;
+use crate::shape;
+use crate::update::check_gamma;
+use forgetting::Noise;
 
 /// The sum of φᵀφ over the last samples, in O(n²) a sample.
 #[derive(Clone, Debug)]
 pub struct InformationWindow {
     window: forgetting::InformationWindow<f64>,
     parameters: usize,
+    rows: usize,
 }
 
 impl InformationWindow {
@@ -20,15 +24,25 @@ impl InformationWindow {
         let parameters = size("parameters", parameters)?;
         let (window, rows) = (size("window", window)?, size("rows", rows)?);
         let window = forgetting::InformationWindow::new(parameters, rows, window)?;
-        Ok(Self { window, parameters })
+        Ok(Self { window, parameters, rows })
     }
 
-    /// Takes one sample, whitened: rows x n numbers.
+    /// Takes one sample: `phi` (rows, n) with rows of 1 left out or not, and `gamma` () or (rows,
+    /// rows); 1 if not given.
     ///
     /// # Errors
-    /// [`Error::Core`] names `phi`; nothing has changed.
-    pub fn add(&mut self, phi: Numbers<'_>) -> Result<(), Error> {
-        Ok(self.window.add(&f64::read(phi))?)
+    /// [`Error`] names what does not fit; nothing has changed.
+    pub fn add(&mut self, phi: View<'_>, gamma: Option<View<'_>>) -> Result<(), Error> {
+        shape::check("phi", phi.shape(), &[], &[self.rows, self.parameters])?;
+        let phi = f64::read(phi.numbers());
+        let Some(gamma) = gamma else { return Ok(self.window.add(&phi)?) };
+        check_gamma(gamma.shape(), self.rows)?;
+        let gamma = f64::read(gamma.numbers());
+        let noise = match *gamma {
+            [scalar] => Noise::Scalar(scalar),
+            ref full => Noise::Full(full),
+        };
+        Ok(self.window.add_with_noise(&phi, noise)?)
     }
 
     /// The sum, (n, n), in units of φ².

@@ -133,7 +133,7 @@ fn initial_values_have_their_shapes() {
     assert_eq!(covariance(&two[..], &[2]).unwrap(), [1.0, 0.0, 0.0, 2.0]);
     assert_eq!(covariance(&four[..], &[2, 2]).unwrap(), four);
     let error = covariance(&two[..1], &[1]).unwrap_err();
-    assert_eq!(error.to_string(), "initial_covariance has 1 elements, expected 2");
+    assert_eq!(error.to_string(), "initial_covariance has shape (1,), expected (), (2,) or (2, 2)");
 
     let theta = |numbers, shape| {
         let initial_theta = Some(View::new("initial_theta", numbers, shape).unwrap());
@@ -142,7 +142,7 @@ fn initial_values_have_their_shapes() {
     };
     assert_eq!(theta(&four[..], &[2, 2]).unwrap(), (vec![2, 2], four.to_vec()));
     let error = theta(&two[..], &[2]).unwrap_err();
-    assert_eq!(error.to_string(), "initial_theta has shape [2], expected (2, 2)");
+    assert_eq!(error.to_string(), "initial_theta has shape (2,), expected (2, 2)");
 }
 
 #[test]

@@ -106,9 +106,9 @@ fn what_a_stream_cannot_use_leaves_it_as_it_was() {
         }
         let sample = (view(&phi[N..], &[COUNT - 1, N]), view(&y, &[COUNT]), None);
         let error = fleet.update(sample, None).unwrap_err();
-        assert_eq!(error.to_string(), "phi has shape [12, 3], expected [13, 3]");
+        assert_eq!(error.to_string(), "phi has shape (12, 3), expected (13, 3)");
         let error = fleet.reset(Some(&mask[1..])).unwrap_err();
-        assert_eq!(error.to_string(), "mask has shape [12], expected [13]");
+        assert_eq!(error.to_string(), "mask has shape (12,), expected (13,)");
         fleet.reset(Some(&mask)).unwrap();
         assert_eq!(fleet.state(0).unwrap(), before[0]);
     }
@@ -172,7 +172,7 @@ fn what_a_fleet_cannot_be_is_refused() {
     let bad = [0.9, 1.1, 0.9, 0.9];
     let factor = Some(view(&bad, &[4]));
     assert_eq!(refused(4, &settings, factor), "stream 1: forgetting_factor = 1.1, allowed: (0, 1]");
-    let text = "forgetting_factor has shape [4], expected one of (), (5,)";
+    let text = "forgetting_factor has shape (4,), expected () or (5,)";
     assert_eq!(refused(5, &settings, factor), text);
     let none = Settings { rule: Some(Choice::named("none")), ..settings.clone() };
     let text = "forgetting_factor is given, but the rule none uses none";

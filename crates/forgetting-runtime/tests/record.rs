@@ -47,9 +47,10 @@ fn a_run_is_its_updates() {
                 &outputs;
             let mut used = 0;
             for k in 0..SAMPLES {
-                let phi = Numbers::from(&phi[k * p * n..(k + 1) * p * n]);
-                let y = Numbers::from(&y[k * p * m..(k + 1) * p * m]);
-                let update = other.update(phi, y, None).unwrap();
+                let phi = &phi[k * p * n..(k + 1) * p * n];
+                let y = &y[k * p * m..(k + 1) * p * m];
+                let sample = (view(phi, &shapes.0[1..]), view(y, &shapes.1[1..]));
+                let update = other.update(sample.0, sample.1, None).unwrap();
                 assert_eq!(row(error, k), doubles(&update.error.array()));
                 assert_eq!(row(whitened, k), doubles(&update.whitened_innovation.array()));
                 assert_eq!(row(theta, k), doubles(&other.theta()));
@@ -82,9 +83,9 @@ fn a_record_may_have_its_own_noise_for_each_sample() {
     let record = (view(&phi, &shapes.0), view(&y, &shapes.1), gammas);
     one.run(record, Missing::Error, None).unwrap();
     for k in 0..SAMPLES {
-        let gamma = Numbers::from(&gamma[k * p * p..(k + 1) * p * p]);
-        let phi = Numbers::from(&phi[k * p * n..(k + 1) * p * n]);
-        other.update(phi, Numbers::from(&y[k * p..(k + 1) * p]), Some(gamma)).unwrap();
+        let gamma = view(&gamma[k * p * p..(k + 1) * p * p], &shapes.2[1..]);
+        let phi = view(&phi[k * p * n..(k + 1) * p * n], &shapes.0[1..]);
+        other.update(phi, y[k * p..(k + 1) * p].into(), Some(gamma)).unwrap();
     }
     assert_eq!(one.to_bytes().unwrap(), other.to_bytes().unwrap());
 }

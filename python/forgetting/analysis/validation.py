@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from forgetting._core import InvalidInput
+from forgetting._core import numbers as numbers
 
 Array = NDArray[np.float64]
 
@@ -15,14 +16,6 @@ Array = NDArray[np.float64]
 def refuse(name: str, value: object, allowed: str) -> InvalidInput:
     """Return the error to raise for parameter `name`."""
     return InvalidInput(f"{name} = {value!s}, allowed: {allowed}")
-
-
-def numbers(name: str, value: ArrayLike) -> Array:
-    """Return `value` as a float64 array, or refuse it."""
-    try:
-        return np.asarray(value, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise refuse(name, type(value).__name__, "an array of real numbers") from error
 
 
 def whole(name: str, value: int, low: int, high: int | None = None) -> int:

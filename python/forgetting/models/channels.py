@@ -5,17 +5,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from forgetting._core import InvalidInput
+from forgetting._core import InvalidInput, numbers
 
 Array = NDArray[np.float64]
 
 
 def channels(name: str, values: ArrayLike) -> Array:
     """Return (T,) or (T, c) as (T, c) float64; NaN means missing, Inf is refused."""
-    try:
-        array = np.asarray(values, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise InvalidInput(f"{name} must hold numbers: {error}") from None
+    array = numbers(name, values)
     if array.ndim == 1:
         array = array[:, None]
     if array.ndim != 2:

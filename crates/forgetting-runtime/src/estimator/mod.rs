@@ -12,7 +12,7 @@ use crate::choice::{has_function, Description};
 use crate::configure;
 use crate::error::Error;
 use crate::number::{each, make, ByType, Family, Number};
-use crate::number::{Array, NumberType, Numbers, View};
+use crate::number::{Array, NumberType, View};
 use crate::settings::Settings;
 use crate::update::{update, Update};
 use accessors::{factor, predict, theta, units};
@@ -83,17 +83,17 @@ impl Estimator {
         each!(&mut self.typed, e => e.reset());
     }
 
-    /// Takes one sample: p x n numbers `phi`, p x m numbers `y`, and Γ as one number or p x p
-    /// numbers; 1 if not given.
+    /// Takes one sample: `phi` (p, n) and `y` (p, m) with sizes of 1 left out or not, and `gamma` ()
+    /// or (p, p); 1 if not given.
     ///
     /// # Errors
-    /// [`Error::Core`] names what was wrong; nothing has changed.
+    /// [`Error`] names what was wrong; nothing has changed.
     #[inline]
     pub fn update(
         &mut self,
-        phi: Numbers<'_>,
-        y: Numbers<'_>,
-        gamma: Option<Numbers<'_>>,
+        phi: View<'_>,
+        y: View<'_>,
+        gamma: Option<View<'_>>,
     ) -> Result<Update, Error> {
         each!(&mut self.typed, e => update(e, phi, y, gamma))
     }

@@ -6,6 +6,7 @@ use crate::configure;
 use crate::error::Error;
 use crate::number::{Number, View};
 use crate::settings::Settings;
+use crate::shape::either;
 use forgetting::rates::Rate;
 use forgetting::{AnyEstimator, Dynamic, Memory, Prior};
 use std::borrow::Cow;
@@ -96,14 +97,8 @@ fn split<'a, T: Number>(
         let width = shape[1..].iter().product();
         Ok((None, Some((T::read(value.numbers()), width))))
     } else {
-        let tuple = |shape: &&[usize]| match *shape {
-            [one] => format!("({one},)"),
-            more => {
-                format!("({})", more.iter().map(usize::to_string).collect::<Vec<_>>().join(", "))
-            }
-        };
-        let shapes: Vec<_> = all.iter().chain(each).map(tuple).collect();
-        Err(Error::shape(name, shape, format!("one of {}", shapes.join(", "))))
+        let shapes: Vec<_> = all.iter().chain(each).collect();
+        Err(Error::shape(name, shape, either(&shapes)))
     }
 }
 

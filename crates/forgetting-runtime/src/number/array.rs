@@ -57,7 +57,13 @@ impl<'a> From<&'a [f32]> for Numbers<'a> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View<'a> {
     numbers: Numbers<'a>,
-    shape: &'a [usize],
+    shape: Shape<'a>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Shape<'a> {
+    Given(&'a [usize]),
+    Vector([usize; 1]),
 }
 
 impl<'a> View<'a> {
@@ -74,10 +80,11 @@ impl<'a> View<'a> {
         let numbers = numbers.into();
         let places = shape.iter().fold(1, |places: usize, &size| places.saturating_mul(size));
         forgetting::Error::check_length(parameter, numbers.len(), places)?;
-        Ok(Self { numbers, shape })
+        Ok(Self { numbers, shape: Shape::Given(shape) })
     }
 
     /// The numbers.
+    #[inline]
     #[must_use]
     pub fn numbers(&self) -> Numbers<'a> {
         self.numbers
@@ -85,8 +92,21 @@ impl<'a> View<'a> {
 
     /// The shape.
     #[must_use]
-    pub fn shape(&self) -> &'a [usize] {
-        self.shape
+    #[inline]
+    pub fn shape(&self) -> &[usize] {
+        match &self.shape {
+            Shape::Given(shape) => shape,
+            Shape::Vector(length) => length,
+        }
+    }
+}
+
+/// A vector: numbers in one dimension.
+impl<'a, N: Into<Numbers<'a>>> From<N> for View<'a> {
+    #[inline]
+    fn from(numbers: N) -> Self {
+        let numbers = numbers.into();
+        Self { numbers, shape: Shape::Vector([numbers.len()]) }
     }
 }
 

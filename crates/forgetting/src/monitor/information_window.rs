@@ -13,8 +13,10 @@
 
 use crate::choice::{Parameter, Range};
 use crate::error::Error;
+use crate::memory::Dynamic;
+use crate::sample::{whiten, Noise, Sample};
 use alloc::{vec, vec::Vec};
-use forgetting_kernels::Real;
+use forgetting_kernels::{Kernels, Real};
 
 /// A sliding window over whitened regressors.
 #[derive(Clone, Debug)]
@@ -82,6 +84,23 @@ impl<T: Real> InformationWindow<T> {
             self.largest = self.trace();
         }
         Ok(())
+    }
+
+    /// Takes one sample φ, `rows` x `parameters` numbers, with the noise covariance Γ = `noise`.
+    ///
+    /// # Errors
+    /// Those of [`InformationWindow::add`], and [`Error`] names a `gamma` that is not positive
+    /// definite; nothing has changed.
+    pub fn add_with_noise(&mut self, phi: &[T], noise: Noise<'_, T>) -> Result<(), Error>
+    where
+        T: Kernels,
+    {
+        Error::check_length("phi", phi.len(), self.rows * self.parameters)?;
+        let memory = Dynamic::new(self.parameters, self.rows, 1)?;
+        let (mut whitened, mut root) = (phi.to_vec(), vec![T::ZERO; self.rows * self.rows]);
+        let mut errors = vec![T::ZERO; self.rows];
+        whiten(&mut Sample::new(memory, &mut whitened, &mut errors), noise, &mut root)?;
+        self.add(&whitened)
     }
 
     fn trace(&self) -> T {

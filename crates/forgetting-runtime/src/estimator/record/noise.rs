@@ -3,6 +3,7 @@
 use super::shapes::Sizes;
 use crate::error::Error;
 use crate::number::Number;
+use crate::shape::either;
 use forgetting::Noise;
 
 /// Γ of a record: the same for all samples, or one a sample.
@@ -28,8 +29,8 @@ impl<'a, T: Number> RecordNoise<'a, T> {
             [a, b] if (a, b) == (p, p) => Ok(Self::Full(gamma)),
             [t, a, b] if (t, a, b) == (samples, p, p) => Ok(Self::Fulls(gamma)),
             _ => {
-                let expected = format!("(), ({p}, {p}), ({samples},) or ({samples}, {p}, {p})");
-                Err(Error::shape("gamma", shape, expected))
+                let allowed = [vec![], vec![p, p], vec![samples], vec![samples, p, p]];
+                Err(Error::shape("gamma", shape, either(&allowed)))
             }
         }
     }
