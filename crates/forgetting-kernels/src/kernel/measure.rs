@@ -61,7 +61,8 @@ impl<T: Real> Kernel<T> for Measure<'_, T> {
         } else {
             many::<T, V, GROUP>(place, form, f, squares)?
         };
-        for (theta, &error) in self.theta.chunks_exact_mut(n).zip(self.errors) {
+        for (target, theta) in self.theta.chunks_exact_mut(n).enumerate() {
+            let error = self.errors[target];
             add_scaled_by::<T, V>(theta, error * measured.inverse_variance, &place.scratch[..n]);
         }
         Some(measured)
@@ -95,7 +96,10 @@ fn few<T: Real, const N: usize>(
         }
     };
     *d = small.d;
-    scratch[..N].copy_from_slice(&gain.k);
+    let k = &mut scratch[..N];
+    for i in 0..N {
+        k[i] = gain.k[i];
+    }
     let Gain { s: leverage, a: variance, inverse_a: inverse_variance, largest, .. } = gain;
     Some(Measured { leverage, variance, inverse_variance, largest, forgot })
 }

@@ -36,11 +36,11 @@ pub trait Sums<T: Real>: Lane<T> {
         let mut sums = [T::ZERO; C];
         let (fours, rest) = vectors.as_chunks::<4>();
         let (sums_of_fours, sums_of_rest) = sums.as_chunks_mut::<4>();
-        for (sums, &four) in sums_of_fours.iter_mut().zip(fours) {
-            *sums = Self::numbers(Self::four_sums(four));
+        for i in 0..fours.len() {
+            sums_of_fours[i] = Self::numbers(Self::four_sums(fours[i]));
         }
-        for (sum, vector) in sums_of_rest.iter_mut().zip(rest) {
-            *sum = vector.sum();
+        for i in 0..rest.len() {
+            sums_of_rest[i] = rest[i].sum();
         }
         sums
     }

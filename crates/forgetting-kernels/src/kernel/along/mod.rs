@@ -102,9 +102,9 @@ impl<'a, T: Real, const B: usize, const R: usize> Room<'a, T, B, R> {
                 w[l].write(&mut self.of_one[b][l][W]);
             }
         }
-        for (z, f) in self.z.iter_mut().zip(&*self.f) {
+        for t in 0..self.z.len().min(self.f.len()) {
             for l in 0..B {
-                V::load(&f[l]).store(&mut z[l]);
+                V::load(&self.f[t][l]).store(&mut self.z[t][l]);
             }
         }
         solve::<T, V, B>(columns, self.of_all.len(), self.z);

@@ -16,9 +16,9 @@ impl<T: Real, const B: usize, const R: usize> Room<'_, T, B, R> {
     #[inline(always)]
     pub fn leverage<E: Eight<T>>(&self, l: usize) -> T {
         let mut sum = E::splat(T::ZERO);
-        for (all, own) in self.of_all.iter().zip(&*self.of_one) {
-            let w = E::read(&own[l][W]);
-            sum = (E::read(&all[D]) * w).mul_add(w, sum);
+        for b in 0..self.of_all.len().min(self.of_one.len()) {
+            let w = E::read(&self.of_one[b][l][W]);
+            sum = (E::read(&self.of_all[b][D]) * w).mul_add(w, sum);
         }
         sum.running_sums().last().numbers()[0]
     }
@@ -60,7 +60,8 @@ impl<T: Real, const B: usize, const R: usize> Room<'_, T, B, R> {
         let (mut chain, mut p) = (Chain::start(), zero);
         let (mut most, mut less_least) = (zero, -E::splat(T::CEILING));
         let mut shared: Shared<E> = [zero; 2];
-        for (b, (all, own)) in self.of_all.iter_mut().zip(&mut *self.of_one).enumerate() {
+        for b in 0..self.of_all.len().min(self.of_one.len()) {
+            let (all, own) = (&mut self.of_all[b], &mut self.of_one[b]);
             let mut w = E::read(&own[L][W]);
             if L > 0 {
                 let change = RankOne { slope: &own[0][WIDENING], factor: z_of(self.z, 0, b) };

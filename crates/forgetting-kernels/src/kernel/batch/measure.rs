@@ -37,7 +37,8 @@ impl<T: Real> Room<'_, T> {
         let (factor, zero) = (E::splat(growth), E::splat(T::ZERO));
         let (mut chain, mut most, mut less_least) = (Chain::start(), zero, -E::splat(T::CEILING));
         let mut sums = [zero; L];
-        for (d, changes) in self.d.iter_mut().zip(&mut *self.changes) {
+        for b in 0..self.d.len().min(self.changes.len()) {
+            let (d, changes) = (&mut self.d[b], &mut self.changes[b]);
             let mut w = E::read(&changes[L][W_THEN_SLOPE]);
             for m in 0..L {
                 w = change(&changes[m]).change_row(w, &mut sums[m]);

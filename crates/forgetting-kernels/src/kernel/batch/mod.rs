@@ -82,7 +82,8 @@ impl<'a, T: Real> Room<'a, T> {
         next: bool,
     ) -> T {
         let mut leverages = [V::Eight::splat(T::ZERO); BATCH];
-        for (b, (d, changes)) in self.d.iter_mut().zip(&mut *self.changes).enumerate() {
+        for b in 0..self.d.len().min(self.changes.len()) {
+            let (d, changes) = (&mut self.d[b], &mut self.changes[b]);
             if done {
                 store_eight(diagonal, b, V::Eight::read(d));
                 let mut all = [change(&changes[0]); BATCH];

@@ -29,11 +29,11 @@ impl<T: Real> Kernel<T> for Predict<'_, T> {
     #[inline(always)]
     fn run<V: Vector<T>, const GROUP: usize>(self) {
         let Self { layout, lines, phi, prediction } = self;
-        let (lanes, first) = (Line::<T>::LANES, layout.theta());
-        let n = layout.length() - first;
-        let blocks = lines.chunks_exact(layout.length());
-        let samples = phi.chunks(n * lanes).zip(prediction.chunks_mut(lanes));
-        for (block, (phi, prediction)) in blocks.zip(samples) {
+        let (lanes, length, first) = (Line::<T>::LANES, layout.length(), layout.theta());
+        let n = length - first;
+        for (b, prediction) in prediction.chunks_mut(lanes).enumerate() {
+            let block = &lines[b * length..(b + 1) * length];
+            let phi = &phi[b * n * lanes..];
             let mut products = Line::splat(T::ZERO);
             for lane in (0..lanes).step_by(V::Abreast::COUNT) {
                 let mut product = V::Abreast::splat(T::ZERO);

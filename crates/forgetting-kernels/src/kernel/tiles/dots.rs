@@ -54,13 +54,13 @@ where
     V: Vector<T>,
 {
     let mut sums = [[V::splat(T::ZERO); C]; W];
-    for (tile, f) in block.iter().zip(f) {
+    for t in 0..block.len().min(f.len()) {
         let mut own = [V::splat(T::ZERO); W];
         for w in 0..W {
-            own[w] = V::load(&f[s + w]);
+            own[w] = V::load(&f[t][s + w]);
         }
         for c in 0..C {
-            let u = V::load(&tile[FIRST + c]);
+            let u = V::load(&block[t][FIRST + c]);
             for w in 0..W {
                 sums[w][c] = u.mul_add(own[w], sums[w][c]);
             }
@@ -76,8 +76,8 @@ fn of_columns<T: Real, V: Vector<T>, const C: usize, const FIRST: usize>(
 ) -> [V; C] {
     let mut sums = [V::splat(T::ZERO); C];
     let (full, tail) = f.first(block.len());
-    for (tile, f) in block.iter().zip(full) {
-        add_tile::<T, V, C, FIRST>(tile, f, &mut sums);
+    for t in 0..block.len().min(full.len()) {
+        add_tile::<T, V, C, FIRST>(&block[t], &full[t], &mut sums);
     }
     if let (Some(tile), Some(f)) = (block.last(), tail) {
         add_tile::<T, V, C, FIRST>(tile, f, &mut sums);

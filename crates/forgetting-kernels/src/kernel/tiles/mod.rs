@@ -45,7 +45,9 @@ pub fn triangle<T: Real>(block: &[Tile<T>], b: usize) -> [PerColumn<T>; BLOCK] {
         let first = b * BLOCK % T::ROWS;
         for c in 0..BLOCK {
             let column = &tile[c].as_ref()[first..first + BLOCK];
-            triangle[c][..c].copy_from_slice(&column[..c]);
+            for i in 0..c {
+                triangle[c][i] = column[i];
+            }
         }
     }
     triangle

@@ -22,9 +22,10 @@ pub fn advance<T: Real, A: Abreast<T>>(task: &mut Advance<'_, '_, '_, T>) -> usi
     let (n, lanes, last) = (part.n, Line::<T>::LANES, part.strengths.len() - 1);
     let with_leverage = outputs.leverage.is_some();
     let mut work = Work::of(part.scratch, n);
-    let blocks = part.lines.chunks_exact_mut(Layout::new(n).length());
+    let length = Layout::new(n).length();
     let mut used = 0;
-    for (block, (lines, phi)) in blocks.zip(samples.phi.chunks(n * lanes)).enumerate() {
+    for (block, phi) in samples.phi.chunks(n * lanes).enumerate() {
+        let lines = &mut part.lines[block * length..(block + 1) * length];
         let streams = block * lanes..block * lanes + phi.len() / n;
         let strength = part.strengths[block.min(last)].0.as_ref();
         let y = rows::outputs(samples, streams.clone());
