@@ -38,9 +38,6 @@ pub mod saved;
 mod testing;
 pub mod weightings;
 
-#[cfg(feature = "alloc")]
-pub use choice::function;
-pub use choice::parameter;
 pub use covariance::{Factor, Prior};
 pub use error::Error;
 #[cfg(feature = "alloc")]
@@ -48,7 +45,6 @@ pub use estimator::AnyEstimator;
 pub use estimator::Estimator;
 pub use forgetting_kernels::kernel::outcome::Outcome;
 pub use forgetting_kernels::{Kernels, Real};
-pub use memory::state;
 #[cfg(feature = "alloc")]
 pub use memory::{Aligned, Dynamic};
 pub use memory::{Buffer, Fixed, Grid, Memory, Packed, Size};

@@ -9,8 +9,8 @@ use core::arch::x86_64::*;
 use forgetting_kernels::number::vector::Vector;
 use forgetting_kernels::Kernel;
 
+mod block_vector;
 mod columns;
-mod eight;
 mod lanes;
 mod single;
 mod sums;
@@ -80,7 +80,7 @@ use {at, at_mut};
 // as many numbers as are read or written; loads and stores need no alignment.
 
 impl Vector<Fused<f64>> for Wide<__m512d> {
-    type Abreast = Self;
+    type StreamVector = Self;
     type One = Single<__m128d>;
 
     #[inline(always)]
@@ -94,7 +94,7 @@ impl Vector<Fused<f64>> for Wide<__m512d> {
 }
 
 impl Vector<Fused<f64>> for Pair<__m256d> {
-    type Abreast = Single<__m256d>;
+    type StreamVector = Single<__m256d>;
     type One = Single<__m128d>;
 
     #[inline(always)]
@@ -111,7 +111,7 @@ impl Vector<Fused<f64>> for Pair<__m256d> {
 }
 
 impl Vector<Fused<f32>> for Wide<__m512> {
-    type Abreast = Self;
+    type StreamVector = Self;
     type One = Single<__m128>;
 
     #[inline(always)]
@@ -125,7 +125,7 @@ impl Vector<Fused<f32>> for Wide<__m512> {
 }
 
 impl Vector<Fused<f32>> for Pair<__m256> {
-    type Abreast = Single<__m256>;
+    type StreamVector = Single<__m256>;
     type One = Single<__m128>;
 
     #[inline(always)]

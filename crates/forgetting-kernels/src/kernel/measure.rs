@@ -215,13 +215,13 @@ fn along_many<T: Real, V: Vector<T>, const GROUP: usize>(
         };
     }
     room.look::<V, GROUP>(place.columns, place.diagonal);
-    let information = room.information::<V::Eight, 0>();
+    let information = room.information::<V::BlockVector, 0>();
     let c = weight / information;
     if !adds(c) {
         return Some(None);
     }
     make_room(place.bound, T::ONE, c * squares)?;
-    let measured = room.add_and_measure::<V::Eight, 0>(information / weight, information).0;
+    let measured = room.add_and_measure::<V::BlockVector, 0>(information / weight, information).0;
     room.carry_out::<V, GROUP>(place.columns, place.diagonal);
     for (t, to) in T::chunks_mut(gain).0.iter_mut().enumerate() {
         *to = *room.gain(0, t);

@@ -1,7 +1,7 @@
 //! Samples that arrive together, and what they do to θ.
 
 use super::copies::{first_of, put_first};
-use crate::number::eight::Eight;
+use crate::number::block_vector::BlockVector;
 use crate::number::vector::Vector;
 use crate::number::Real;
 

@@ -1,6 +1,6 @@
 //! The numbers an estimator computes with: `f64` and `f32`.
 
-pub mod eight;
+pub mod block_vector;
 pub mod lane;
 pub mod lanes;
 pub mod sums;

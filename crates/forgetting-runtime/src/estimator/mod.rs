@@ -181,7 +181,7 @@ impl Estimator {
         each!(&self.typed, e => (e.factor().largest().to_f64(), e.factor().smallest().to_f64()))
     }
 
-    /// What the watch has found, if there is one.
+    /// What the monitor has found, if there is one.
     #[must_use]
     pub fn health(&self) -> Option<Health> {
         each!(&self.typed, e => Health::of(e))

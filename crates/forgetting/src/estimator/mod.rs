@@ -106,7 +106,7 @@ where
     }
 
     /// Monitors windup, excitation and noise from now on; see [`Estimator::health`]. O(n) a sample.
-    pub fn watch(&mut self) {
+    pub fn enable_monitor(&mut self) {
         self.state.monitor = Some(self.design.monitor(&self.state.factor));
     }
 

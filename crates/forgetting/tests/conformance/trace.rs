@@ -1,7 +1,7 @@
 //! The bound of P's trace, from which overflow is foreseen, bounds it after every sample.
 
 use crate::subjects::{subjects, update, Subject};
-use forgetting::state::Visitor;
+use forgetting::memory::state::Visitor;
 use forgetting::Factor;
 use forgetting::Outcome;
 use forgetting::{Dynamic, Kernels, Noise, Real};

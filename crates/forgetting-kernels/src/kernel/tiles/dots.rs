@@ -10,7 +10,7 @@ use crate::number::Real;
 pub fn dots<T: Real, V: Vector<T>, const GROUP: usize>(
     block: &[Tile<T>],
     f: &Long<'_, T>,
-) -> V::Eight {
+) -> V::BlockVector {
     if GROUP >= 8 {
         return V::eight_sums(of_columns::<T, V, 8, 0>(block, f));
     }
@@ -23,8 +23,8 @@ pub fn dots<T: Real, V: Vector<T>, const GROUP: usize>(
 pub fn dots_beside<T: Real, V: Vector<T>, const GROUP: usize, const S: usize>(
     block: &[Tile<T>],
     f: &[[T::Chunk; S]],
-) -> [V::Eight; S] {
-    let mut dots = [V::Eight::splat(T::ZERO); S];
+) -> [V::BlockVector; S] {
+    let mut dots = [V::BlockVector::splat(T::ZERO); S];
     for s in 0..S {
         if GROUP < 8 {
             let [first] = beside::<T, V, 4, 0, S, 1>(block, f, s);
