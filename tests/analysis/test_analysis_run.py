@@ -132,7 +132,7 @@ def test_a_run_that_has_lost_every_digit_to_windup_can_still_be_judged():
     json.dumps(found.to_dict(), allow_nan=False)
 
 
-#: Rules whose live watch and record must agree, and inputs after 500 samples of excitation.
+#: Rules whose monitor and record must agree, and inputs after 500 samples of excitation.
 WATCHED = {
     "none": fg.NoForgetting(),
     "exponential": fg.Exponential(0.99),
@@ -158,7 +158,7 @@ def test_the_live_watch_and_the_record_agree_on_windup(name):
         found = windup(run, phi, initial_covariance=1.0, rule=est.rule)
         expected = name == "exponential" and given != "weaker"
         assert found.occurred is bool(run.windup.any()) is expected, given
-        if expected:  # the watch looks once a block of half a memory, 50 samples
+        if expected:  # the monitor looks once a block of half a memory, 50 samples
             assert found.sample <= np.argmax(run.windup) <= found.sample + 100
 
 

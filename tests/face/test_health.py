@@ -1,4 +1,4 @@
-"""The live watch: what it says of excitation, windup and noise, and that it changes nothing."""
+"""The monitor: what it says of excitation, windup and noise, and that it changes nothing."""
 
 import numpy as np
 import pytest

@@ -2,7 +2,6 @@
 
 #[cfg(target_arch = "x86_64")]
 use forgetting_kernels::kernel::layout::FEW;
-use forgetting_kernels::number::vector::Vector;
 use forgetting_kernels::{Dispatch, Kernel, Real};
 use std::sync::atomic::{AtomicU8, Ordering};
 
@@ -74,13 +73,19 @@ fn detected() -> Level {
     Level::Baseline
 }
 
-/// The vectors of a number type for each level.
+/// A number type whose kernels are compiled for each level.
 #[cfg(target_arch = "x86_64")]
-pub trait Vectors: Real {
-    /// for AVX2 and FMA
-    type Fused: Vector<Self>;
-    /// for AVX-512
-    type Wide: Vector<Self>;
+pub trait Levels: Real {
+    /// Runs a kernel with AVX2 and FMA.
+    ///
+    /// # Safety
+    /// The machine has them.
+    unsafe fn run_fused<K: Kernel<Self>>(kernel: K) -> K::Output;
+    /// Runs a kernel with AVX-512 F, DQ and VL, AVX2 and FMA.
+    ///
+    /// # Safety
+    /// The machine has them.
+    unsafe fn run_wide<K: Kernel<Self>>(kernel: K) -> K::Output;
 }
 
 /// Runs loops with the instructions of [`level`].
@@ -88,40 +93,24 @@ pub trait Vectors: Real {
 pub struct Machine;
 
 #[cfg(target_arch = "x86_64")]
-impl<T: Vectors> Dispatch<T> for Machine {
+impl<T: Levels> Dispatch<T> for Machine {
     #[inline(always)]
     fn run<K: Kernel<T>>(kernel: K) -> K::Output {
         match level() {
             // SAFETY: the level says that the machine has AVX-512 F, DQ and VL, AVX2 and FMA
-            Level::Wide if kernel.size() > FEW => unsafe { run_wide(kernel) },
-            Level::Baseline => run_baseline(kernel),
+            Level::Wide if kernel.size() > FEW => unsafe { T::run_wide(kernel) },
+            Level::Baseline => no_fused_multiply_add(),
             // SAFETY: the level says that the machine has AVX2 and FMA
-            _ => unsafe { run_fused(kernel) },
+            _ => unsafe { T::run_fused(kernel) },
         }
     }
 }
 
-// each once for all places that call it
-
 #[cfg(target_arch = "x86_64")]
 #[cold]
 #[inline(never)]
-fn run_baseline<T: Vectors, K: Kernel<T>>(_: K) -> K::Output {
+fn no_fused_multiply_add() -> ! {
     panic!("this machine has no fused multiply-add, or the environment forbids it: use f64 or f32")
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma,avx512f,avx512dq,avx512vl")]
-#[inline(never)]
-fn run_wide<T: Vectors, K: Kernel<T>>(kernel: K) -> K::Output {
-    kernel.run::<T::Wide, 8>()
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma")]
-#[inline(never)]
-fn run_fused<T: Vectors, K: Kernel<T>>(kernel: K) -> K::Output {
-    kernel.run::<T::Fused, 4>()
 }
 
 /// Every aarch64 has NEON and fused multiply-add.

@@ -123,7 +123,7 @@ fn head(line: &str) -> Option<(u64, &str)> {
 }
 
 fn is_kernel(name: &str) -> bool {
-    name.contains("level::run_wide") || name.contains("level::run_fused")
+    name.contains("::run_wide") || name.contains("::run_fused")
 }
 
 #[test]

@@ -14,7 +14,8 @@
 #![forbid(unsafe_code)]
 #![allow(
     clippy::needless_range_loop,
-    reason = "what an iterator calls may not be compiled for the vectors"
+    clippy::manual_memcpy,
+    reason = "what an iterator or a copy calls may not be compiled for the vectors"
 )]
 
 #[cfg(test)]

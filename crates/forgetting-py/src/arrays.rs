@@ -48,9 +48,9 @@ pub enum Input<'a, 'py> {
 /// Where numbers from Python are.
 pub enum Source<'a, 'py, T> {
     /// in the array that was given
-    Given(&'a Bound<'py, PyArrayDyn<T>>),
+    Borrowed(&'a Bound<'py, PyArrayDyn<T>>),
     /// in an array made from it
-    Made(Bound<'py, PyArrayDyn<T>>),
+    Owned(Bound<'py, PyArrayDyn<T>>),
     /// a single number that was no array
     Number([T; 1]),
 }
@@ -127,29 +127,29 @@ impl<'a, 'py, T: Number> Source<'a, 'py, T> {
     #[inline(always)]
     fn read(name: &str, values: &'a Bound<'py, PyAny>) -> PyResult<Self> {
         if let Some(array) = native(values) {
-            return Ok(Self::Given(array));
+            return Ok(Self::Borrowed(array));
         }
         match values.cast::<PyFloat>() {
             Ok(number) => Ok(Self::Number([T::from_f64(number.value())])),
-            Err(_) => contiguous(name, values).map(Self::Made),
+            Err(_) => contiguous(name, values).map(Self::Owned),
         }
     }
 
     fn copy(self) -> PyResult<Self> {
         let array = match &self {
-            Self::Given(array) => array,
-            Self::Made(array) => array,
+            Self::Borrowed(array) => array,
+            Self::Owned(array) => array,
             Self::Number(_) => return Ok(self),
         };
         let copy = array.call_method0("copy")?;
-        Ok(Self::Made(copy.cast_into::<PyArray<T, IxDyn>>()?))
+        Ok(Self::Owned(copy.cast_into::<PyArray<T, IxDyn>>()?))
     }
 
     #[inline(always)]
     fn slice(&self) -> PyResult<&[T]> {
         let array = match self {
-            Self::Given(array) => array,
-            Self::Made(array) => array,
+            Self::Borrowed(array) => array,
+            Self::Owned(array) => array,
             Self::Number(number) => return Ok(number),
         };
         // SAFETY: see `Input::numbers`
@@ -158,8 +158,8 @@ impl<'a, 'py, T: Number> Source<'a, 'py, T> {
 
     fn shape(&self) -> &[usize] {
         match self {
-            Self::Given(array) => array.shape(),
-            Self::Made(array) => array.shape(),
+            Self::Borrowed(array) => array.shape(),
+            Self::Owned(array) => array.shape(),
             Self::Number(_) => &[],
         }
     }

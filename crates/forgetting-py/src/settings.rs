@@ -86,7 +86,7 @@ pub fn write_description<'py>(
     Ok(written)
 }
 
-/// What the watch has found; the names are those of [`Health`].
+/// What the monitor has found; the names are those of [`Health`].
 pub fn write_health(py: Python<'_>, health: Health) -> PyResult<Bound<'_, PyDict>> {
     let written = PyDict::new(py);
     written.set_item("windup", health.windup)?;

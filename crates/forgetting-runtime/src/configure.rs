@@ -33,7 +33,7 @@ pub(crate) fn estimator<T: Number>(
     };
     let mut estimator = Estimator::new(rule, rate, weighting, prior).with_gate(gate);
     if settings.monitor {
-        estimator.watch();
+        estimator.enable_monitor();
     }
     Ok(estimator)
 }

@@ -2,7 +2,7 @@
 
 use crate::number::Number;
 use crate::update::Innovation;
-use forgetting::function::{Argument, EvidenceFunction, MatrixFunction};
+use forgetting::choice::function::{Argument, EvidenceFunction, MatrixFunction};
 use forgetting::gates::GateFunction;
 use forgetting::{rates, Answer, Dynamic, Error};
 use std::any::Any;

@@ -42,7 +42,7 @@ pub use choice::{Choice, Description, Value};
 pub use error::{check_shape, Error, Kind};
 pub use estimator::{Estimator, Health, Missing, Run};
 pub use fleet::{Fleet, FleetUpdate, StreamHealth};
-pub use forgetting::function::Argument;
+pub use forgetting::choice::function::Argument;
 pub use forgetting::{Answer, Error as CoreError, Skip};
 pub use function::{Evidence, Function};
 pub use number::{Array, Elements, NumberType, Numbers, View};

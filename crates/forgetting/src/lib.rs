@@ -42,9 +42,6 @@ mod testing;
 mod units;
 pub mod weightings;
 
-#[cfg(feature = "alloc")]
-pub use choice::function;
-pub use choice::parameter;
 pub use covariance::{Factor, Prior, DIFFUSE};
 pub use error::Error;
 #[cfg(feature = "alloc")]
@@ -52,7 +49,6 @@ pub use estimator::AnyEstimator;
 pub use estimator::Estimator;
 pub use forgetting_kernels::kernel::outcome::Outcome;
 pub use forgetting_kernels::{Kernels, Real};
-pub use memory::state;
 #[cfg(feature = "alloc")]
 pub use memory::{Aligned, Dynamic};
 pub use memory::{Buffer, Fixed, Grid, Memory, Packed, Size};

@@ -99,7 +99,7 @@ fn no_gate_and_nothing_that_is_kept_allocates() {
         let rate = AnyRate::named("constant", &Defaults, memory).unwrap();
         let prior = Prior::scalar(memory, 10.0).unwrap();
         let mut estimator = Estimator::new(rule, rate, Equal::new(), prior).with_gate(gate);
-        estimator.watch();
+        estimator.enable_monitor();
         estimator.keep_prior(true);
         estimator.keep_innovations(true);
         let mut whitened = [0.0; 6];

@@ -7,7 +7,7 @@
 use super::{at, Wide};
 use crate::fused::Fused;
 use core::arch::x86_64::*;
-use forgetting_kernels::number::vector::Abreast;
+use forgetting_kernels::number::vector::StreamVector;
 
 /// So many numbers of a row are read at once.
 const WINDOW: usize = 8;

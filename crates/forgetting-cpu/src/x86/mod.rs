@@ -1,15 +1,16 @@
 //! Vectors in the registers of x86-64.
 //!
-//! These types are named by the functions of `level` alone, which check that the machine has the
-//! instructions before they run anything over them.
+//! These types are named by functions that `level` alone calls, which checks that the machine has the
+//! instructions before it runs anything over them.
 
 use crate::fused::Fused;
-use crate::level::Vectors;
+use crate::level::Levels;
 use core::arch::x86_64::*;
 use forgetting_kernels::number::vector::Vector;
+use forgetting_kernels::Kernel;
 
+mod block_vector;
 mod columns;
-mod eight;
 mod lanes;
 mod single;
 mod sums;
@@ -24,15 +25,42 @@ pub struct Pair<R>(R, R);
 #[derive(Clone, Copy, Debug)]
 pub struct Wide<R>(R);
 
-impl Vectors for Fused<f64> {
-    type Fused = Pair<__m256d>;
-    type Wide = Wide<__m512d>;
-}
+/// Compiles the kernels of a number type for both levels, in a module of their own: the compiler makes
+/// units of code of whole modules, and two units are compiled side by side.
+macro_rules! compile_levels {
+    ($module:ident, $float:ident, $fused:ty, $wide:ty) => {
+        mod $module {
+            use super::*;
 
-impl Vectors for Fused<f32> {
-    type Fused = Pair<__m256>;
-    type Wide = Wide<__m512>;
+            #[target_feature(enable = "avx2,fma")]
+            #[inline(never)]
+            pub fn run_fused<K: Kernel<Fused<$float>>>(kernel: K) -> K::Output {
+                kernel.run::<$fused, 4>()
+            }
+
+            #[target_feature(enable = "avx2,fma,avx512f,avx512dq,avx512vl")]
+            #[inline(never)]
+            pub fn run_wide<K: Kernel<Fused<$float>>>(kernel: K) -> K::Output {
+                kernel.run::<$wide, 8>()
+            }
+        }
+
+        impl Levels for Fused<$float> {
+            #[inline(always)]
+            unsafe fn run_fused<K: Kernel<Self>>(kernel: K) -> K::Output {
+                // SAFETY: as the caller says
+                unsafe { $module::run_fused(kernel) }
+            }
+            #[inline(always)]
+            unsafe fn run_wide<K: Kernel<Self>>(kernel: K) -> K::Output {
+                // SAFETY: as the caller says
+                unsafe { $module::run_wide(kernel) }
+            }
+        }
+    };
 }
+compile_levels!(double, f64, Pair<__m256d>, Wide<__m512d>);
+compile_levels!(float, f32, Pair<__m256>, Wide<__m512>);
 
 /// The address of the numbers of an array.
 macro_rules! at {
@@ -52,7 +80,7 @@ use {at, at_mut};
 // as many numbers as are read or written; loads and stores need no alignment.
 
 impl Vector<Fused<f64>> for Wide<__m512d> {
-    type Abreast = Self;
+    type StreamVector = Self;
     type One = Single<__m128d>;
 
     #[inline(always)]
@@ -66,7 +94,7 @@ impl Vector<Fused<f64>> for Wide<__m512d> {
 }
 
 impl Vector<Fused<f64>> for Pair<__m256d> {
-    type Abreast = Single<__m256d>;
+    type StreamVector = Single<__m256d>;
     type One = Single<__m128d>;
 
     #[inline(always)]
@@ -83,7 +111,7 @@ impl Vector<Fused<f64>> for Pair<__m256d> {
 }
 
 impl Vector<Fused<f32>> for Wide<__m512> {
-    type Abreast = Self;
+    type StreamVector = Self;
     type One = Single<__m128>;
 
     #[inline(always)]
@@ -97,7 +125,7 @@ impl Vector<Fused<f32>> for Wide<__m512> {
 }
 
 impl Vector<Fused<f32>> for Pair<__m256> {
-    type Abreast = Single<__m256>;
+    type StreamVector = Single<__m256>;
     type One = Single<__m128>;
 
     #[inline(always)]

@@ -8,7 +8,7 @@ use crate::fused::Fused;
 use core::arch::x86_64::*;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 use forgetting_kernels::number::lane::{Lane, One};
-use forgetting_kernels::number::vector::Abreast;
+use forgetting_kernels::number::vector::StreamVector;
 
 /// A register of 256 bits, with a stream in each lane; or of 128, with the same number in all: the
 /// compiler would pair single numbers with their neighbours, which costs more steps than it saves
@@ -124,10 +124,10 @@ one!(f64, __m128d: _mm_cvtsd_f64);
 one!(f32, __m128: _mm_cvtss_f32);
 
 /// Numbers of streams, in and out of a register.
-macro_rules! abreast {
+macro_rules! stream_vector {
     ($Register:ident<$register:ty>, $float:ident, $count:literal: $load:ident $store:ident
      $(, $columns:ident)?) => {
-        impl Abreast<Fused<$float>> for $Register<$register> {
+        impl StreamVector<Fused<$float>> for $Register<$register> {
             const COUNT: usize = $count;
 
             #[inline(always)]
@@ -166,7 +166,7 @@ macro_rules! abreast {
     };
 }
 
-abreast!(Single<__m256d>, f64, 4: _mm256_loadu_pd _mm256_storeu_pd);
-abreast!(Single<__m256>, f32, 8: _mm256_loadu_ps _mm256_storeu_ps);
-abreast!(Wide<__m512d>, f64, 8: _mm512_loadu_pd _mm512_storeu_pd);
-abreast!(Wide<__m512>, f32, 16: _mm512_loadu_ps _mm512_storeu_ps, of_sixteen);
+stream_vector!(Single<__m256d>, f64, 4: _mm256_loadu_pd _mm256_storeu_pd);
+stream_vector!(Single<__m256>, f32, 8: _mm256_loadu_ps _mm256_storeu_ps);
+stream_vector!(Wide<__m512d>, f64, 8: _mm512_loadu_pd _mm512_storeu_pd);
+stream_vector!(Wide<__m512>, f32, 16: _mm512_loadu_ps _mm512_storeu_ps, of_sixteen);

@@ -23,9 +23,11 @@
 
 use super::layout::BLOCK;
 use super::registers::Small;
-use super::tiles::{block_mut, eliminate, load_eight, store_eight, triangle, LongMut, Tile};
+use super::tiles::{
+    block_mut, eliminate, load_per_column, store_per_column, triangle, LongMut, Tile,
+};
 use crate::kernel::dispatch::Kernel;
-use crate::number::eight::Eight;
+use crate::number::block_vector::BlockVector;
 use crate::number::vector::Vector;
 use crate::number::Real;
 
@@ -58,10 +60,10 @@ impl<T: Real> Kernel<T> for AgeeTurner<'_, T> {
         let (mut x, mut t) = (LongMut::new(self.x), T::ONE / self.c);
         for b in (0..n.div_ceil(BLOCK)).rev() {
             let block = block_mut(self.columns, b);
-            let mut d = load_eight::<T, V::Eight>(self.diagonal, b, T::FLOOR).numbers();
+            let mut d = load_per_column::<T, V::BlockVector>(self.diagonal, b, T::FLOOR).numbers();
             let scalars;
-            (t, scalars) = pass(&triangle(block, b), &mut d, x.eight(b), t);
-            store_eight(self.diagonal, b, V::Eight::read(&d));
+            (t, scalars) = pass(&triangle(block, b), &mut d, x.per_column(b), t);
+            store_per_column(self.diagonal, b, V::BlockVector::read(&d));
             let Scalars { slope, less_s, kept } = &scalars;
             if loses_digits(kept) {
                 add_up(block, b, &mut x, &scalars);

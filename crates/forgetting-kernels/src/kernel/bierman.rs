@@ -13,11 +13,11 @@
 
 use super::layout::BLOCK;
 use super::tiles::{
-    block, block_mut, change_columns, dots, load_eight, padding_d, store_eight, Long, LongMut,
-    PerColumn, RankOne, Tile,
+    block, block_mut, change_columns, dots, load_per_column, padding_d, store_per_column, Long,
+    LongMut, PerColumn, RankOne, Tile,
 };
 use crate::kernel::measured::Measured;
-use crate::number::eight::Eight;
+use crate::number::block_vector::BlockVector;
 use crate::number::lane::Lane;
 use crate::number::vector::Vector;
 use crate::number::Real;
@@ -45,7 +45,7 @@ impl<E> Chain<E> {
     #[inline(always)]
     pub fn start<T: Real>() -> Self
     where
-        E: Eight<T>,
+        E: BlockVector<T>,
     {
         Self { s: E::splat(T::ZERO), inverse: E::splat(T::ONE) }
     }
@@ -57,7 +57,7 @@ impl<E> Chain<E> {
     #[inline(always)]
     pub fn pass<T: Real>(&mut self, d: E, w: E) -> Pass<E>
     where
-        E: Eight<T>,
+        E: BlockVector<T>,
     {
         let (v, one, first) = (d * w, E::splat(T::ONE), E::splat(T::ONE) + self.s);
         let sums = (w * v).running_sums();
@@ -74,7 +74,7 @@ impl<E> Chain<E> {
     #[inline(always)]
     pub fn measured<T: Real>(self, largest: T, forgot: bool) -> Measured<T>
     where
-        E: Eight<T>,
+        E: BlockVector<T>,
     {
         let (leverage, one) = (self.s.numbers()[0], T::ONE);
         let variance = one + leverage;
@@ -104,7 +104,7 @@ pub fn largest_of<T: Real>(eight: &PerColumn<T>) -> T {
 
 /// Whether no D is below its floor, given the largest of −D.
 #[inline(always)]
-pub fn above_floor<T: Real, E: Eight<T>>(less_least: E) -> bool {
+pub fn above_floor<T: Real, E: BlockVector<T>>(less_least: E) -> bool {
     E::all(less_least.at_most(-E::splat(T::FLOOR)))
 }
 
@@ -113,7 +113,7 @@ pub fn above_floor<T: Real, E: Eight<T>>(less_least: E) -> bool {
 /// A column of U may be as long as D is small: lifting D alone would add to P whatever the floor is
 /// times the square of that length. So the column becomes √(D/floor) of what it is.
 #[inline(always)]
-pub fn settle<T: Real, E: Eight<T>>(
+pub fn settle<T: Real, E: BlockVector<T>>(
     block: &mut [Tile<T>],
     (diagonal, b): (&mut [T], usize),
     mut d: E,
@@ -121,7 +121,7 @@ pub fn settle<T: Real, E: Eight<T>>(
     if !E::all(E::splat(T::FLOOR).at_most(d)) {
         d = E::read(&lift(block, b, &d.numbers()));
     }
-    store_eight(diagonal, b, d);
+    store_per_column(diagonal, b, d);
 }
 
 #[cold]
@@ -146,9 +146,9 @@ pub fn scale_and_measure<T: Real, V: Vector<T>, const GROUP: usize>(
     growth: T,
     f: &[T],
     k: &mut [T],
-) -> Chain<V::Eight> {
+) -> Chain<V::BlockVector> {
     let (f, mut k, blocks) = (Long::new(f), LongMut::new(k), diagonal.len().div_ceil(BLOCK));
-    let (mut chain, growth) = (Chain::start(), V::Eight::splat(growth));
+    let (mut chain, growth) = (Chain::start(), V::BlockVector::splat(growth));
     let mut ahead = dots::<T, V, GROUP>(block(columns, 0), &f);
     for b in 0..blocks {
         let w = ahead;
@@ -156,7 +156,7 @@ pub fn scale_and_measure<T: Real, V: Vector<T>, const GROUP: usize>(
             // needs nothing of this block: the machine does both at once
             ahead = dots::<T, V, GROUP>(block(columns, b + 1), &f);
         }
-        let d = load_eight::<T, V::Eight>(diagonal, b, padding_d()) * growth;
+        let d = load_per_column::<T, V::BlockVector>(diagonal, b, padding_d()) * growth;
         let Pass { d, slope, v, .. } = chain.pass(d, w);
         let change = RankOne { slope: &slope.numbers(), factor: &v.numbers() };
         let block = block_mut(columns, b);

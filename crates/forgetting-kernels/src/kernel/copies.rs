@@ -8,12 +8,10 @@ use crate::number::{copy_first, Real};
 #[inline(always)]
 pub fn copy<T: Real, V: Vector<T>>(from: &[T], to: &mut [T]) {
     let ((from, from_rest), (to, to_rest)) = (T::chunks(from), T::chunks_mut(to));
-    for (from, to) in from.iter().zip(to) {
-        V::load(from).store(to);
+    for i in 0..from.len().min(to.len()) {
+        V::load(&from[i]).store(&mut to[i]);
     }
-    for (&from, to) in from_rest.iter().zip(to_rest) {
-        *to = from;
-    }
+    copy_first(to_rest, from_rest);
 }
 
 /// As many numbers as a vector has, or fewer and zeros.

@@ -61,7 +61,8 @@ impl<T: Real> Kernel<T> for Measure<'_, T> {
         } else {
             many::<T, V, GROUP>(place, form, f, squares)?
         };
-        for (theta, &error) in self.theta.chunks_exact_mut(n).zip(self.errors) {
+        for (target, theta) in self.theta.chunks_exact_mut(n).enumerate() {
+            let error = self.errors[target];
             add_scaled_by::<T, V>(theta, error * measured.inverse_variance, &place.scratch[..n]);
         }
         Some(measured)
@@ -98,7 +99,10 @@ fn few<T: Real, const N: usize>(
         }
     };
     *d = small.d;
-    scratch[..N].copy_from_slice(&gain.k);
+    let k = &mut scratch[..N];
+    for i in 0..N {
+        k[i] = gain.k[i];
+    }
     let Gain { s: leverage, a: variance, inverse_a: inverse_variance, largest, .. } = gain;
     Some(Measured { leverage, variance, inverse_variance, largest, forgot })
 }
@@ -232,13 +236,13 @@ fn along_many<T: Real, V: Vector<T>, const GROUP: usize>(
         };
     }
     room.look::<V, GROUP>(place.columns, place.diagonal);
-    let information = room.information::<V::Eight, 0>();
+    let information = room.information::<V::BlockVector, 0>();
     let c = weight / information;
     if !adds(c) {
         return Some(None);
     }
     make_room(place.bound, T::ONE, c * squares)?;
-    let measured = room.add_and_measure::<V::Eight, 0>(information / weight, information).0;
+    let measured = room.add_and_measure::<V::BlockVector, 0>(information / weight, information).0;
     room.carry_out::<V, GROUP>(place.columns, place.diagonal);
     for (t, to) in T::chunks_mut(gain).0.iter_mut().enumerate() {
         *to = *room.gain(0, t);

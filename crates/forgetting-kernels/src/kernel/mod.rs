@@ -66,5 +66,28 @@ pub use dispatch::{Dispatch, Kernel, Portable};
 pub use kernels::Kernels;
 pub use scratch::scratch;
 
-compile_kernels!(f64, Portable);
-compile_kernels!(f32, Portable);
+/// Compiles the kernels of a number type with the instructions of the compiler's target, in a module of
+/// their own: the compiler makes units of code of whole modules, and two units are compiled side by
+/// side.
+macro_rules! compile_portable {
+    ($module:ident, $float:ident) => {
+        mod $module {
+            use super::{Dispatch, Kernel};
+            use crate::number::Real;
+
+            struct Unit;
+
+            impl Dispatch<$float> for Unit {
+                // a function for each kernel: in one function they would compile for minutes
+                #[inline(never)]
+                fn run<K: Kernel<$float>>(kernel: K) -> K::Output {
+                    kernel.run::<<$float as Real>::Lanes, 2>()
+                }
+            }
+
+            compile_kernels!($float, Unit);
+        }
+    };
+}
+compile_portable!(double, f64);
+compile_portable!(float, f32);

@@ -16,7 +16,7 @@ pub struct Outcome<T> {
     pub forgot: bool,
     /// whether it was learned from; if not, it was in the dead zone
     pub used: bool,
-    /// whether the watch, if there is one, says that P has wound up
+    /// whether the monitor, if there is one, says that P has wound up
     pub windup: bool,
 }
 

@@ -1,7 +1,7 @@
 //! Samples that arrive together, and what they do to θ.
 
 use super::copies::{first_of, put_first};
-use crate::number::eight::Eight;
+use crate::number::block_vector::BlockVector;
 use crate::number::vector::Vector;
 use crate::number::Real;
 
@@ -35,10 +35,10 @@ pub fn predict<T: Real, V: Vector<T>, const S: usize>(
     f: &[[T::Chunk; S]],
 ) -> ([T; S], [T; S]) {
     let mut sums = [V::splat(T::ZERO); 8];
-    for (theta, f) in theta.chunks(T::ROWS).zip(f) {
+    for (t, theta) in theta.chunks(T::ROWS).enumerate() {
         let theta: V = first_of(theta);
         for l in 0..S {
-            let f = V::load(&f[l]);
+            let f = V::load(&f[t][l]);
             sums[l] = f.mul_add(theta, sums[l]);
             sums[4 + l] = f.mul_add(f, sums[4 + l]);
         }

@@ -3,10 +3,11 @@
 use super::layout::{BLOCK, FEW};
 use super::registers::Small;
 use super::tiles::{
-    add_columns, block, dots, load_eight, store_eight, triangle, Long, LongMut, PerColumn, Tile,
+    add_columns, block, dots, load_per_column, store_per_column, triangle, Long, LongMut,
+    PerColumn, Tile,
 };
 use crate::kernel::dispatch::Kernel;
-use crate::number::eight::Eight;
+use crate::number::block_vector::BlockVector;
 use crate::number::lane::Lane;
 use crate::number::vector::Vector;
 use crate::number::Real;
@@ -48,10 +49,10 @@ pub fn leverage_of<T: Real, V: Vector<T>, const GROUP: usize>(
     diagonal: &[T],
     f: &[T],
 ) -> T {
-    let (long, mut sum) = (Long::new(f), V::Eight::splat(T::ZERO));
+    let (long, mut sum) = (Long::new(f), V::BlockVector::splat(T::ZERO));
     for b in 0..f.len().div_ceil(BLOCK) {
         let w = dots::<T, V, GROUP>(block(columns, b), &long);
-        let d = load_eight::<T, V::Eight>(diagonal, b, T::ZERO);
+        let d = load_per_column::<T, V::BlockVector>(diagonal, b, T::ZERO);
         sum = (d * w).mul_add(w, sum);
     }
     sum.running_sums().last().numbers()[0]
@@ -89,7 +90,7 @@ impl<T: Real> Kernel<T> for MultiplyTransposed<'_, T> {
         }
         for b in (0..x.len().div_ceil(BLOCK)).rev() {
             let w = dots::<T, V, GROUP>(block(columns, b), &Long::new(x));
-            store_eight(x, b, w);
+            store_per_column(x, b, w);
         }
     }
 }
@@ -132,13 +133,13 @@ impl<T: Real> Kernel<T> for Solve<'_, T> {
         let mut x = LongMut::new(x);
         for b in (0..blocks).rev() {
             let block = block(columns, b);
-            let solved = solve_triangle(block, b, x.eight(b));
+            let solved = solve_triangle(block, b, x.per_column(b));
             let mut factors = solved;
             for c in 0..BLOCK {
                 factors[c] = -factors[c];
             }
             add_columns::<T, V>(block, &mut x, &factors);
-            *x.eight(b) = solved;
+            *x.per_column(b) = solved;
         }
         x.finish();
     }
@@ -194,7 +195,7 @@ impl<T: Real> Kernel<T> for Multiply<'_, T> {
         let mut x = LongMut::new(x);
         for b in 0..blocks {
             // the diagonal puts them back
-            let factors = core::mem::replace(x.eight(b), [T::ZERO; BLOCK]);
+            let factors = core::mem::replace(x.per_column(b), [T::ZERO; BLOCK]);
             add_columns::<T, V>(block(columns, b), &mut x, &factors);
         }
         x.finish();

@@ -37,13 +37,13 @@ pub fn dot_of<T: Real, V: Vector<T>>(a: &[T], b: &[T]) -> T {
     let mut sum = T::ZERO;
     if !a.is_empty() {
         let mut lanes = V::splat(T::ZERO);
-        for (a, b) in a.iter().zip(b) {
-            lanes = V::load(a).mul_add(V::load(b), lanes);
+        for i in 0..a.len().min(b.len()) {
+            lanes = V::load(&a[i]).mul_add(V::load(&b[i]), lanes);
         }
         sum = lanes.sum();
     }
-    for (&a, &b) in a_rest.iter().zip(b_rest) {
-        sum = a.mul_add(b, sum);
+    for i in 0..a_rest.len().min(b_rest.len()) {
+        sum = a_rest[i].mul_add(b_rest[i], sum);
     }
     sum
 }
@@ -79,11 +79,11 @@ pub fn add_scaled_by<T: Real, V: Vector<T>>(y: &mut [T], c: T, x: &[T]) {
     let (y, y_rest) = T::chunks_mut(&mut y[..length]);
     let (x, x_rest) = T::chunks(&x[..length]);
     let lanes = V::splat(c);
-    for (y, x) in y.iter_mut().zip(x) {
-        lanes.mul_add(V::load(x), V::load(y)).store(y);
+    for i in 0..y.len().min(x.len()) {
+        lanes.mul_add(V::load(&x[i]), V::load(&y[i])).store(&mut y[i]);
     }
-    for (y, &x) in y_rest.iter_mut().zip(x_rest) {
-        *y = c.mul_add(x, *y);
+    for i in 0..y_rest.len().min(x_rest.len()) {
+        y_rest[i] = c.mul_add(x_rest[i], y_rest[i]);
     }
 }
 
@@ -125,15 +125,16 @@ pub fn products<T: Real, V: Vector<T>>(phi: &[T], theta: &[T]) -> (T, T) {
     let (mut product, mut square) = (T::ZERO, T::ZERO);
     if !phi.is_empty() {
         let (mut products, mut squares) = (V::splat(T::ZERO), V::splat(T::ZERO));
-        for (phi, theta) in phi.iter().zip(theta) {
-            let phi = V::load(phi);
-            products = phi.mul_add(V::load(theta), products);
+        for i in 0..phi.len().min(theta.len()) {
+            let phi = V::load(&phi[i]);
+            products = phi.mul_add(V::load(&theta[i]), products);
             squares = phi.mul_add(phi, squares);
         }
         (product, square) = (products.sum(), squares.sum());
     }
-    for (&phi, &theta) in phi_rest.iter().zip(theta_rest) {
-        product = phi.mul_add(theta, product);
+    for i in 0..phi_rest.len().min(theta_rest.len()) {
+        let phi = phi_rest[i];
+        product = phi.mul_add(theta_rest[i], product);
         square = phi.mul_add(phi, square);
     }
     (product, square)

@@ -1,6 +1,6 @@
 //! The numbers an estimator computes with: `f64` and `f32`.
 
-pub mod eight;
+pub mod block_vector;
 pub mod lane;
 pub mod lanes;
 pub mod sums;
@@ -113,7 +113,7 @@ pub fn copy_some<T: Copy, const L: usize>(to: &mut [T; L], from: &[T]) {
     }
 }
 
-/// Copies the first of `from`, as many as there is room for; `from` is of constant length.
+/// Copies the first of `from`, as many as there is room for; `from` is short.
 ///
 /// One by one, as [`copy_some`].
 #[inline(always)]

@@ -1,6 +1,6 @@
 //! Sums across the numbers of vectors.
 
-use crate::number::eight::Eight;
+use crate::number::block_vector::BlockVector;
 use crate::number::lane::Lane;
 use crate::number::lanes::Lanes;
 use crate::number::Real;
@@ -13,7 +13,7 @@ pub trait Sums<T: Real>: Lane<T> {
     /// a number for each of four vectors
     type Four: Copy;
     /// a number for each of eight, as for the columns of a block
-    type Eight: Eight<T>;
+    type BlockVector: BlockVector<T>;
 
     /// The sum of its numbers.
     fn sum(self) -> T;
@@ -22,11 +22,11 @@ pub trait Sums<T: Real>: Lane<T> {
     /// Four numbers, to memory.
     fn numbers(four: Self::Four) -> [T; 4];
     /// Four numbers and the four after them.
-    fn join(first: Self::Four, second: Self::Four) -> Self::Eight;
+    fn join(first: Self::Four, second: Self::Four) -> Self::BlockVector;
 
     /// The sums of eight vectors.
     #[inline(always)]
-    fn eight_sums([a, b, c, d, e, f, g, h]: [Self; 8]) -> Self::Eight {
+    fn eight_sums([a, b, c, d, e, f, g, h]: [Self; 8]) -> Self::BlockVector {
         Self::join(Self::four_sums([a, b, c, d]), Self::four_sums([e, f, g, h]))
     }
 
@@ -36,11 +36,11 @@ pub trait Sums<T: Real>: Lane<T> {
         let mut sums = [T::ZERO; C];
         let (fours, rest) = vectors.as_chunks::<4>();
         let (sums_of_fours, sums_of_rest) = sums.as_chunks_mut::<4>();
-        for (sums, &four) in sums_of_fours.iter_mut().zip(fours) {
-            *sums = Self::numbers(Self::four_sums(four));
+        for i in 0..fours.len() {
+            sums_of_fours[i] = Self::numbers(Self::four_sums(fours[i]));
         }
-        for (sum, vector) in sums_of_rest.iter_mut().zip(rest) {
-            *sum = vector.sum();
+        for i in 0..rest.len() {
+            sums_of_rest[i] = rest[i].sum();
         }
         sums
     }
@@ -48,7 +48,7 @@ pub trait Sums<T: Real>: Lane<T> {
 
 impl<T: Real, const L: usize> Sums<T> for Lanes<T, L> {
     type Four = [T; 4];
-    type Eight = Lanes<T, 8>;
+    type BlockVector = Lanes<T, 8>;
 
     #[inline(always)]
     fn sum(self) -> T {

@@ -13,7 +13,7 @@ pub trait Vector<T: Real>: Sums<T> {
     /// A single number, as this set of instructions works fastest with one.
     type One: One<T>;
     /// What the streams of a fleet run in.
-    type Abreast: Abreast<T>;
+    type StreamVector: StreamVector<T>;
 
     /// The numbers of `chunk`.
     fn load(chunk: &T::Chunk) -> Self;
@@ -33,16 +33,16 @@ pub trait Vector<T: Real>: Sums<T> {
 
 /// One number of each of COUNT streams in one register. Narrower than [`Vector`], so that a long
 /// recursion has registers left for its own values.
-pub trait Abreast<T: Real>: Lane<T> {
+pub trait StreamVector<T: Real>: Lane<T> {
     /// How many streams, at most those of a chunk.
     const COUNT: usize;
-    /// The first [`Abreast::COUNT`] of `numbers`, of which there are as many at least.
+    /// The first [`StreamVector::COUNT`] of `numbers`, of which there are as many at least.
     fn read(numbers: &[T]) -> Self;
-    /// Writes them to the first [`Abreast::COUNT`] of `numbers`, of which there are as many.
+    /// Writes them to the first [`StreamVector::COUNT`] of `numbers`, of which there are as many.
     fn write(self, numbers: &mut [T]);
     /// The number at each position.
     fn at(number: impl Fn(usize) -> T) -> Self;
-    /// The columns of [`Abreast::COUNT`] rows, with a row in each lane.
+    /// The columns of [`StreamVector::COUNT`] rows, with a row in each lane.
     #[inline(always)]
     fn columns<const N: usize>(rows: &[[T; N]]) -> [Self; N] {
         let mut columns = [Self::splat(T::ZERO); N];
@@ -56,7 +56,7 @@ pub trait Abreast<T: Real>: Lane<T> {
     fn prefetch<L>(_line: &L) {}
 }
 
-impl<T: Real> Abreast<T> for T {
+impl<T: Real> StreamVector<T> for T {
     const COUNT: usize = 1;
 
     #[inline(always)]
@@ -74,7 +74,7 @@ impl<T: Real> Abreast<T> for T {
 }
 
 impl<T: Real<Chunk = [T; L]>, const L: usize> Vector<T> for Lanes<T, L> {
-    type Abreast = T;
+    type StreamVector = T;
     type One = T;
 
     #[inline(always)]

@@ -1,9 +1,9 @@
-//! What the watch over an estimator has found.
+//! What the monitor over an estimator has found.
 
 use crate::number::{Array, Elements, Number};
 use forgetting::AnyEstimator;
 
-/// What the watch has found; see [`forgetting::Health`].
+/// What the monitor has found; see [`forgetting::Health`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Health {
     /// whether the weakest direction has wound up
@@ -35,7 +35,7 @@ pub struct Health {
 }
 
 impl Health {
-    /// Nothing without a watch.
+    /// Nothing without a monitor.
     pub(crate) fn of<T: Number>(estimator: &AnyEstimator<T>) -> Option<Self> {
         let health = estimator.health()?;
         let shape = [health.direction.len()];

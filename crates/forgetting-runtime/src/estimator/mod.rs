@@ -192,7 +192,7 @@ impl Estimator {
         })
     }
 
-    /// What the watch has found, if there is one.
+    /// What the monitor has found, if there is one.
     #[must_use]
     pub fn health(&self) -> Option<Health> {
         each!(&self.typed, e => Health::of(e))

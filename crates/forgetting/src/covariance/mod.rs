@@ -88,7 +88,7 @@ impl<M: Memory> Factor<M> {
             && self.trace_bound.is_finite()
     }
 
-    /// Makes the bound of P's trace one, if it is far from it.
+    /// Recomputes the bound of P's trace where the one that was read cannot be a bound.
     #[cfg(feature = "alloc")]
     pub(crate) fn check_bound(&mut self) {
         // half of it, for rounding

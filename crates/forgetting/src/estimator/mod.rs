@@ -104,7 +104,7 @@ where
     }
 
     /// Monitors windup, excitation and noise from now on; see [`Estimator::health`]. O(n) a sample.
-    pub fn watch(&mut self) {
+    pub fn enable_monitor(&mut self) {
         let Recursion { design, state, .. } = &mut self.recursion;
         state.monitor = Some(design.monitor(&state.factor));
     }

@@ -71,7 +71,7 @@ impl<T: Kernels> AnyEstimator<T> {
         }
         reader.finish()?;
         if old_monitor {
-            estimator.watch();
+            estimator.enable_monitor();
         }
         if estimator.check_read() {
             Ok(estimator)

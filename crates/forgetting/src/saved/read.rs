@@ -153,7 +153,7 @@ pub fn header<T: Kernels>(
     let mut estimator = Estimator::new(rule, rate, weighting, prior).with_gate(gate);
     let old_monitor = monitored && version == 1;
     if monitored && !old_monitor {
-        estimator.watch();
+        estimator.enable_monitor();
     }
     Ok((estimator, old_monitor))
 }

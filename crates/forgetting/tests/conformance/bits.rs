@@ -103,7 +103,7 @@ fn work_that_fails_changes_no_bit() {
     let (first, rest) = data.split_at(SAMPLES / 2);
     for subject in subjects() {
         let mut estimator = subject.estimator::<f64>((3, 1, 1), 0.97, 10.0).unwrap();
-        estimator.watch();
+        estimator.enable_monitor();
         feed(&mut estimator, first);
         let (before, mut whole) = (estimator.to_bytes().unwrap(), estimator.clone());
         feed(&mut whole, rest);

@@ -116,7 +116,7 @@ fn several_rows_must_be_asked_for() {
 }
 
 /// With P̄ kept, every step is taken one by one; without, some are one pass, for many samples in one
-/// go. The watch must see the same.
+/// go. The monitor must see the same.
 #[test]
 fn the_watch_sees_the_same_whichever_way_the_sample_takes() {
     let sizes = (3, 1, 1);
@@ -126,7 +126,7 @@ fn the_watch_sees_the_same_whichever_way_the_sample_takes() {
     let mut many = 0;
     for subject in subjects() {
         let mut quick = subject.estimator::<f64>(sizes, 0.8, 10.0).unwrap();
-        quick.watch();
+        quick.enable_monitor();
         let (mut slow, mut at_once) = (quick.clone(), quick.clone());
         slow.keep_prior(true);
         let (mut told, mut k) = (vec![Outcome::default(); data.len()], 0);

@@ -3,9 +3,9 @@
 
 use crate::record::{record, Datum};
 use crate::subjects::{subjects, update, Given, Subject};
+use forgetting::memory::state::Visitor;
 use forgetting::rates::{AnyRate, RATES};
 use forgetting::saved::AnyEstimator;
-use forgetting::state::Visitor;
 use forgetting::weightings::AnyWeighting;
 use forgetting::{Dynamic, Estimator, Noise, Prior};
 
@@ -72,7 +72,7 @@ fn numbers_that_no_sample_leads_to_are_refused_or_do_no_harm() {
 fn tamper(sizes: Sizes) {
     let data = record::<f64>(sizes, 240);
     for (name, mut estimator) in estimators(sizes) {
-        estimator.watch();
+        estimator.enable_monitor();
         for Datum { phi, y, .. } in &data[..30] {
             update(&mut estimator, phi, y, Noise::Unit).unwrap();
         }
@@ -105,7 +105,7 @@ fn tamper(sizes: Sizes) {
 }
 
 /// Version 1 had no gate: its bytes are those of version 2 without the gate's name and its count
-/// of parameters. Its watch had fewer numbers.
+/// of parameters. Its monitor had fewer numbers.
 #[test]
 fn the_version_before_is_read_with_an_open_gate_and_a_new_watch() {
     for watched in [false, true] {
@@ -115,7 +115,7 @@ fn the_version_before_is_read_with_an_open_gate_and_a_new_watch() {
         }
         let plain = estimator.to_bytes().unwrap();
         if watched {
-            estimator.watch();
+            estimator.enable_monitor();
         }
         let bytes = estimator.to_bytes().unwrap();
         let mut old = bytes[..bytes.len() - 4].to_vec();
@@ -132,7 +132,7 @@ fn the_version_before_is_read_with_an_open_gate_and_a_new_watch() {
         assert_eq!(read.health().is_some(), watched);
         let mut plainly = AnyEstimator::<f64>::from_bytes(&plain).unwrap();
         if watched {
-            plainly.watch();
+            plainly.enable_monitor();
         }
         assert!(read.to_bytes().unwrap() == plainly.to_bytes().unwrap());
         old.push(0);

@@ -1,8 +1,8 @@
 //! The bound of P's trace, from which overflow is foreseen, bounds it after every sample.
 
 use crate::subjects::{pairs, subjects, update, Given, Item, Subject};
+use forgetting::memory::state::Visitor;
 use forgetting::rules::RULES;
-use forgetting::state::Visitor;
 use forgetting::Factor;
 use forgetting::Outcome;
 use forgetting::{Dynamic, Kernels, Noise, Real};

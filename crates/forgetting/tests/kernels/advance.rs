@@ -68,7 +68,7 @@ fn assert_same<F: Forgetting<Dynamic<T>>, T: Kernels>(a: &Plain<F, T>, b: &Plain
     }
 }
 
-/// What the watch says, if there is one.
+/// What the monitor says, if there is one.
 fn health<F: Forgetting<Dynamic<T>>, T: Kernels>(estimator: &Plain<F, T>) -> Vec<u64> {
     let Some(health) = estimator.health() else { return Vec::new() };
     [health.variance, health.growth, health.noise_variance, health.correlation]
@@ -97,10 +97,10 @@ fn follow<F: Forgetting<Dynamic<T>>, T: Kernels>(rule: F, n: usize, watched: Wat
     let mut together = Estimator::new(rule, rate.unwrap(), Equal::new(), prior.unwrap());
     let mut apart = together.clone();
     if watched != Watched::Neither {
-        apart.watch();
+        apart.enable_monitor();
     }
     if watched == Watched::Both {
-        together.watch();
+        together.enable_monitor();
     }
     let (mut phi, y) = record::<T>(n, SAMPLES);
     phi[50 * n] = T::from_f64(f64::NAN);

@@ -11,7 +11,7 @@ use forgetting_kernels::number::sums::Sums;
 
 impl Sums<Fused<f64>> for Wide<__m512d> {
     type Four = __m256d;
-    type Eight = Self;
+    type BlockVector = Self;
 
     #[inline(always)]
     fn sum(self) -> Fused<f64> {
@@ -42,7 +42,7 @@ impl Sums<Fused<f64>> for Wide<__m512d> {
 
 impl Sums<Fused<f32>> for Wide<__m512> {
     type Four = __m128;
-    type Eight = Single<__m256>;
+    type BlockVector = Single<__m256>;
 
     #[inline(always)]
     fn sum(self) -> Fused<f32> {

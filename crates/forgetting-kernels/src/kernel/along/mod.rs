@@ -29,9 +29,9 @@ mod solve;
 use super::bierman::settle;
 use super::layout::BLOCK;
 use super::tiles::{
-    block, block_mut, change_columns, dots_beside, load_eight, padding_d, PerColumn, RankOne,
+    block, block_mut, change_columns, dots_beside, load_per_column, padding_d, PerColumn, RankOne,
 };
-use crate::number::eight::Eight;
+use crate::number::block_vector::BlockVector;
 use crate::number::vector::Vector;
 use crate::number::Real;
 use solve::solve;
@@ -95,16 +95,16 @@ impl<'a, T: Real, const B: usize, const R: usize> Room<'a, T, B, R> {
     #[inline(always)]
     pub fn look<V: Vector<T>, const GROUP: usize>(&mut self, columns: &[T], diagonal: &[T]) {
         for b in 0..self.of_all.len() {
-            let d = load_eight::<T, V::Eight>(diagonal, b, padding_d());
+            let d = load_per_column::<T, V::BlockVector>(diagonal, b, padding_d());
             d.write(&mut self.of_all[b][D]);
             let w = dots_beside::<T, V, GROUP, B>(block(columns, b), self.f);
             for l in 0..B {
                 w[l].write(&mut self.of_one[b][l][W]);
             }
         }
-        for (z, f) in self.z.iter_mut().zip(&*self.f) {
+        for t in 0..self.z.len().min(self.f.len()) {
             for l in 0..B {
-                V::load(&f[l]).store(&mut z[l]);
+                V::load(&self.f[t][l]).store(&mut self.z[t][l]);
             }
         }
         solve::<T, V, B>(columns, self.of_all.len(), self.z);
@@ -127,7 +127,7 @@ impl<'a, T: Real, const B: usize, const R: usize> Room<'a, T, B, R> {
             }
             let block = block_mut(columns, b);
             change_columns::<T, V, _, GROUP, R>((block, b), self.sums, &changes);
-            settle(block, (diagonal, b), V::Eight::read(&self.of_all[b][D]));
+            settle(block, (diagonal, b), V::BlockVector::read(&self.of_all[b][D]));
         }
     }
 

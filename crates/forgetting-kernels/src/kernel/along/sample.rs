@@ -5,7 +5,7 @@ use super::{z_of, z_of_mut, Room};
 use super::{D, LATER, Q, SLOPE, V, V_OVER_A, W, WIDENED, WIDENING, Z_OVER_T};
 use crate::kernel::measured::Measured;
 use crate::kernel::tiles::RankOne;
-use crate::number::eight::Eight;
+use crate::number::block_vector::BlockVector;
 use crate::number::Real;
 
 /// Sums of the first sample's changes along the row of a second one, in all lanes.
@@ -14,18 +14,18 @@ type Shared<E> = [E; 2];
 impl<T: Real, const B: usize, const R: usize> Room<'_, T, B, R> {
     /// fᵀPf of sample l, with the P of before.
     #[inline(always)]
-    pub fn leverage<E: Eight<T>>(&self, l: usize) -> T {
+    pub fn leverage<E: BlockVector<T>>(&self, l: usize) -> T {
         let mut sum = E::splat(T::ZERO);
-        for (all, own) in self.of_all.iter().zip(&*self.of_one) {
-            let w = E::read(&own[l][W]);
-            sum = (E::read(&all[D]) * w).mul_add(w, sum);
+        for b in 0..self.of_all.len().min(self.of_one.len()) {
+            let w = E::read(&self.of_one[b][l][W]);
+            sum = (E::read(&self.of_all[b][D]) * w).mul_add(w, sum);
         }
         sum.running_sums().last().numbers()[0]
     }
 
     /// fᵀP⁻¹f of sample L, after what the first sample does.
     #[inline(always)]
-    pub fn information<E: Eight<T>, const L: usize>(&mut self) -> T {
+    pub fn information<E: BlockVector<T>, const L: usize>(&mut self) -> T {
         let zero = E::splat(T::ZERO);
         let (mut sum, mut sums_of_first) = (zero, [zero; 2]);
         for (b, all) in self.of_all.iter_mut().enumerate().rev() {
@@ -49,7 +49,7 @@ impl<T: Real, const B: usize, const R: usize> Room<'_, T, B, R> {
     /// P ← P + c·fᵀf with t = 1/c, f of this information in P⁻¹, then P⁻¹ ← P⁻¹ + fᵀf, for sample L; f·k of the first sample, too,
     /// and whether no D falls below its floor.
     #[inline(always)]
-    pub fn add_and_measure<E: Eight<T>, const L: usize>(
+    pub fn add_and_measure<E: BlockVector<T>, const L: usize>(
         &mut self,
         t: T,
         information: T,
@@ -60,7 +60,8 @@ impl<T: Real, const B: usize, const R: usize> Room<'_, T, B, R> {
         let (mut chain, mut p) = (Chain::start(), zero);
         let (mut most, mut less_least) = (zero, -E::splat(T::CEILING));
         let mut shared: Shared<E> = [zero; 2];
-        for (b, (all, own)) in self.of_all.iter_mut().zip(&mut *self.of_one).enumerate() {
+        for b in 0..self.of_all.len().min(self.of_one.len()) {
+            let (all, own) = (&mut self.of_all[b], &mut self.of_one[b]);
             let mut w = E::read(&own[L][W]);
             if L > 0 {
                 let change = RankOne { slope: &own[0][WIDENING], factor: z_of(self.z, 0, b) };
@@ -95,7 +96,7 @@ impl<T: Real, const B: usize, const R: usize> Room<'_, T, B, R> {
 
 /// z_j + factor_j Σ_{i>j} slope_i z_i; `sum` is that of the columns after these, in all lanes.
 #[inline(always)]
-fn change_back<T: Real, E: Eight<T>>(z: E, (factor, slope): (E, E), sum: &mut E) -> E {
+fn change_back<T: Real, E: BlockVector<T>>(z: E, (factor, slope): (E, E), sum: &mut E) -> E {
     let sums = *sum + (slope * z).remaining_sums();
     let changed = factor.mul_add(sums.after(*sum), z);
     *sum = sums.first();

@@ -23,8 +23,8 @@ pub fn solve<T: Real, V: Vector<T>, const B: usize>(
             subtract::<T, V, B>(last, &mut xs[above.len()], &solved);
         }
         // from below: the next block waits for the rows just above
-        for (tile, xs) in above.iter().zip(&mut *xs).rev() {
-            subtract::<T, V, B>(tile, xs, &solved);
+        for t in (0..above.len()).rev() {
+            subtract::<T, V, B>(&above[t], &mut xs[t], &solved);
         }
         for (l, solved) in solved.into_iter().enumerate() {
             *z_of_mut(xs, l, b) = solved;
@@ -49,7 +49,7 @@ fn subtract<T: Real, V: Vector<T>, const B: usize>(
             x[l] = V::splat(-solved[l][c]).mul_add(u, x[l]);
         }
     }
-    for (to, x) in xs.iter_mut().zip(x) {
-        x.store(to);
+    for l in 0..B {
+        x[l].store(&mut xs[l]);
     }
 }

@@ -4,14 +4,14 @@ use super::{change, PerSample, Room, BATCH, V, W_THEN_SLOPE};
 use crate::kernel::bierman::{above_floor, largest_of, Chain};
 use crate::kernel::measured::Measured;
 use crate::kernel::tiles::change_row;
-use crate::number::eight::Eight;
+use crate::number::block_vector::BlockVector;
 use crate::number::Real;
 
 impl<T: Real> Room<'_, T> {
     /// P ← `growth`·P, then P⁻¹ ← P⁻¹ + fᵀf, for one sample after the other; `shared` becomes f·k of
     /// each with those before it. None if D falls below its floor.
     #[inline(always)]
-    pub fn measure<E: Eight<T>, const GROUP: usize>(
+    pub fn measure<E: BlockVector<T>, const GROUP: usize>(
         &mut self,
         growth: T,
         shared: &mut PerSample<PerSample<T>>,
@@ -29,7 +29,7 @@ impl<T: Real> Room<'_, T> {
 
     /// Sample `L`, after those before it.
     #[inline(always)]
-    fn measure_next<E: Eight<T>, const L: usize>(
+    fn measure_next<E: BlockVector<T>, const L: usize>(
         &mut self,
         growth: T,
         shared: &mut PerSample<T>,
@@ -37,7 +37,8 @@ impl<T: Real> Room<'_, T> {
         let (factor, zero) = (E::splat(growth), E::splat(T::ZERO));
         let (mut chain, mut most, mut less_least) = (Chain::start(), zero, -E::splat(T::CEILING));
         let mut sums = [zero; L];
-        for (d, changes) in self.d.iter_mut().zip(&mut *self.changes) {
+        for b in 0..self.d.len().min(self.changes.len()) {
+            let (d, changes) = (&mut self.d[b], &mut self.changes[b]);
             let mut w = E::read(&changes[L][W_THEN_SLOPE]);
             for m in 0..L {
                 w = change(&changes[m]).change_row(w, &mut sums[m]);
@@ -58,7 +59,7 @@ impl<T: Real> Room<'_, T> {
     /// All samples, for `B` blocks that fit the registers: what a sample does to those after it is done
     /// at once, and nothing waits for memory.
     #[inline(always)]
-    fn measure_in_registers<E: Eight<T>, const B: usize>(
+    fn measure_in_registers<E: BlockVector<T>, const B: usize>(
         &mut self,
         growth: T,
         shared: &mut PerSample<PerSample<T>>,

@@ -23,10 +23,10 @@ mod measure;
 
 use super::layout::BLOCK;
 use super::tiles::{
-    block, block_mut, change_columns, dots_beside, load_eight, padding_d, store_eight, PerColumn,
-    RankOne,
+    block, block_mut, change_columns, dots_beside, load_per_column, padding_d, store_per_column,
+    PerColumn, RankOne,
 };
-use crate::number::eight::Eight;
+use crate::number::block_vector::BlockVector;
 use crate::number::lane::Lane;
 use crate::number::vector::Vector;
 use crate::number::Real;
@@ -81,10 +81,11 @@ impl<'a, T: Real> Room<'a, T> {
         done: bool,
         next: bool,
     ) -> T {
-        let mut leverages = [V::Eight::splat(T::ZERO); BATCH];
-        for (b, (d, changes)) in self.d.iter_mut().zip(&mut *self.changes).enumerate() {
+        let mut leverages = [V::BlockVector::splat(T::ZERO); BATCH];
+        for b in 0..self.d.len().min(self.changes.len()) {
+            let (d, changes) = (&mut self.d[b], &mut self.changes[b]);
             if done {
-                store_eight(diagonal, b, V::Eight::read(d));
+                store_per_column(diagonal, b, V::BlockVector::read(d));
                 let mut all = [change(&changes[0]); BATCH];
                 for l in 1..BATCH {
                     all[l] = change(&changes[l]);
@@ -92,7 +93,7 @@ impl<'a, T: Real> Room<'a, T> {
                 change_columns::<T, V, _, GROUP, BATCH>((block_mut(columns, b), b), self.k, &all);
             }
             if next {
-                let own = load_eight::<T, V::Eight>(diagonal, b, padding_d());
+                let own = load_per_column::<T, V::BlockVector>(diagonal, b, padding_d());
                 own.write(d);
                 let w = dots_beside::<T, V, GROUP, BATCH>(block(columns, b), self.f);
                 for l in 0..BATCH {

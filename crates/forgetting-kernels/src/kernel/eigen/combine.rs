@@ -34,8 +34,8 @@ pub fn combine<T: Real, V: Vector<T>, const GROUP: usize>(
     for column in (0..rows.n).step_by(T::ROWS) {
         let place = Place { column, width: T::ROWS.min(rows.n - column), n: rows.n };
         let (mut first, mut filled) = (0, 0);
-        for (row, &component) in rows.vectors.chunks_exact(rows.n).zip(rows.components) {
-            if component == T::ZERO {
+        for (i, row) in rows.vectors.chunks_exact(rows.n).enumerate() {
+            if rows.components[i] == T::ZERO {
                 continue;
             }
             first_of::<T, V>(&row[column..column + place.width]).store(&mut panel[filled]);

@@ -41,8 +41,8 @@ impl<T: Real> Kernel<T> for RankOneUpdate<'_, T> {
         let active = poles.len();
         // the product is free until the vectors are combined
         let buffer = &mut product[..active];
-        for (square, &z) in buffer.iter_mut().zip(weights) {
-            *square = z * z;
+        for i in 0..active {
+            buffer[i] = weights[i] * weights[i];
         }
         secular::roots(poles, buffer, turn, roots);
         let sound = secular::vectors(poles, weights, turn, buffer);

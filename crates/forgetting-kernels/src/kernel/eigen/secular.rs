@@ -24,8 +24,8 @@ pub fn roots<T: Real>(poles: &[T], w: &[T], gaps: &mut [T], roots: &mut [T]) {
         for lane in 0..LANES.min(m - first) {
             let (origin, x) = (origin[lane], x[lane]);
             let row = &mut gaps[(first + lane) * m..][..m];
-            for (gap, &pole) in row.iter_mut().zip(poles) {
-                *gap = (pole - origin) - x;
+            for i in 0..m {
+                row[i] = (poles[i] - origin) - x;
             }
             roots[first + lane] = origin + x;
         }
@@ -205,7 +205,8 @@ impl<T: Real> Sums<T> {
 fn evaluate<T: Real>(poles: &[T], w: &[T], origin: &Lanes<T>, x: &Lanes<T>) -> Sums<T> {
     let zero = [T::ZERO; LANES];
     let (mut value, mut size, mut slope, mut signed) = (zero, zero, zero, zero);
-    for (&d, &w) in poles.iter().zip(w) {
+    for i in 0..poles.len().min(w.len()) {
+        let (d, w) = (poles[i], w[i]);
         for lane in 0..LANES {
             let inverse = T::ONE / ((d - origin[lane]) - x[lane]);
             let term = w * inverse;
@@ -225,23 +226,26 @@ fn evaluate<T: Real>(poles: &[T], w: &[T], origin: &Lanes<T>, x: &Lanes<T>) -> S
 #[inline(always)]
 pub fn vectors<T: Real>(poles: &[T], z: &[T], gaps: &mut [T], squares: &mut [T]) -> bool {
     let m = poles.len();
-    squares.fill(T::ONE);
+    // not `fill`: a call
+    for i in 0..m {
+        squares[i] = T::ONE;
+    }
     for (j, row) in gaps.chunks_exact(m).enumerate() {
         let d = poles[j];
         let own = -(squares[j] * row[j]);
-        for ((square, &gap), &pole) in squares.iter_mut().zip(row).zip(poles) {
-            *square *= gap / (pole - d);
+        for i in 0..m {
+            squares[i] *= row[i] / (poles[i] - d);
         }
         squares[j] = own;
     }
-    for (square, &z) in squares.iter_mut().zip(z) {
-        let magnitude = square.sqrt();
-        *square = if z < T::ZERO { -magnitude } else { magnitude };
+    for i in 0..m {
+        let magnitude = squares[i].sqrt();
+        squares[i] = if z[i] < T::ZERO { -magnitude } else { magnitude };
     }
     let mut sound = true;
     for row in gaps.chunks_exact_mut(m) {
-        for (gap, &z) in row.iter_mut().zip(squares.iter()) {
-            *gap = z / *gap;
+        for i in 0..m {
+            row[i] = squares[i] / row[i];
         }
         let length = squared_length(row).sqrt();
         let scale = T::ONE / length;
@@ -261,8 +265,8 @@ fn squared_length<T: Real>(row: &[T]) -> T {
             partial[lane] += block[lane] * block[lane];
         }
     }
-    for (partial, &x) in partial.iter_mut().zip(blocks.remainder()) {
-        *partial += x * x;
+    for (lane, &x) in blocks.remainder().iter().enumerate() {
+        partial[lane] += x * x;
     }
     (partial[0] + partial[2]) + (partial[1] + partial[3])
 }

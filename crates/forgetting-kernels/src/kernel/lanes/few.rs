@@ -1,7 +1,7 @@
 //! A few streams of at most ten parameters.
 
 use super::{
-    accepts, adds, make_room, report, Abreast, Fate, Form, LaneOutcome, Line, Real, Trace,
+    accepts, adds, make_room, report, Fate, Form, LaneOutcome, Line, Real, StreamVector, Trace,
 };
 use crate::kernel::lanes::storage::Layout;
 use crate::kernel::layout::FEW;
@@ -21,7 +21,7 @@ pub struct State<'a, T: Real, A, const N: usize> {
 /// The most numbers of a stream.
 const MOST: usize = Layout::new(FEW).length();
 
-impl<'a, T: Real, A: Abreast<T>, const N: usize> State<'a, T, A, N> {
+impl<'a, T: Real, A: StreamVector<T>, const N: usize> State<'a, T, A, N> {
     const LAYOUT: Layout = Layout::new(N);
 
     /// The streams of a block from `lane` on.
@@ -67,14 +67,14 @@ impl<'a, T: Real, A: Abreast<T>, const N: usize> State<'a, T, A, N> {
     }
 }
 
-impl<T: Real, A: Abreast<T>, const N: usize> Trace<A> for Small<A, N, State<'_, T, A, N>> {
+impl<T: Real, A: StreamVector<T>, const N: usize> Trace<A> for Small<A, N, State<'_, T, A, N>> {
     #[inline(always)]
     fn trace(&self) -> A {
         Small::trace::<T>(self)
     }
 }
 
-impl<T: Real, A: Abreast<T>, const N: usize> Unit<A, N> for State<'_, T, A, N> {
+impl<T: Real, A: StreamVector<T>, const N: usize> Unit<A, N> for State<'_, T, A, N> {
     #[inline(always)]
     fn get(&self, c: usize, i: usize) -> A {
         self.read(Self::LAYOUT.column(c) + i)
@@ -96,7 +96,7 @@ impl<T: Real, A: Abreast<T>, const N: usize> Unit<A, N> for State<'_, T, A, N> {
 
 /// Takes a sample of each stream.
 #[inline(always)]
-pub fn advance<T: Real, A: Abreast<T>, const N: usize>(
+pub fn advance<T: Real, A: StreamVector<T>, const N: usize>(
     state: State<'_, T, A, N>,
     (form, strength): (Form<T>, A),
     (f, y): (&[A; N], A),
@@ -127,7 +127,7 @@ pub fn advance<T: Real, A: Abreast<T>, const N: usize>(
 
 /// P̄ = growth·P + noise·I, without the noise unless `WALK`.
 #[inline(always)]
-fn scale<T: Real, A: Abreast<T>, const N: usize, const WALK: bool>(
+fn scale<T: Real, A: StreamVector<T>, const N: usize, const WALK: bool>(
     mut small: Small<A, N, State<'_, T, A, N>>,
     (growth, noise): (A, A),
     f: &[A; N],
@@ -164,7 +164,7 @@ fn scale<T: Real, A: Abreast<T>, const N: usize, const WALK: bool>(
 
 /// P̄ = P + weight·fᵀ(fRfᵀ)⁻¹f.
 #[inline(always)]
-fn along<T: Real, A: Abreast<T>, const N: usize>(
+fn along<T: Real, A: StreamVector<T>, const N: usize>(
     mut small: Small<A, N, State<'_, T, A, N>>,
     weight: A,
     f: &[A; N],
@@ -210,7 +210,7 @@ fn along<T: Real, A: Abreast<T>, const N: usize>(
 
 /// θ ← θ + P·fᵀe. The streams that did not use their samples become again what they were `before`.
 #[inline(always)]
-fn correct<T: Real, A: Abreast<T>, const N: usize>(
+fn correct<T: Real, A: StreamVector<T>, const N: usize>(
     small: Small<A, N, State<'_, T, A, N>>,
     gain: &Gain<A, N>,
     (bound, error): (A, A),

@@ -7,7 +7,7 @@
 use super::layout::FEW;
 use crate::kernel::dispatch::Kernel;
 use crate::kernel::form::{DeadZone, Form};
-use crate::number::vector::{Abreast, Vector};
+use crate::number::vector::{StreamVector, Vector};
 use crate::number::Real;
 use storage::{Layout, Line};
 use streams::{Outputs, Samples, Streams, DEAD_ZONE, MISSING, REFUSED};
@@ -48,7 +48,7 @@ impl<T: Real> Kernel<T> for Advance<'_, '_, '_, T> {
         if n <= FEW {
             with_few!(n, few::<T, V>(&mut self))
         } else {
-            many::advance::<T, V::Abreast>(&mut self)
+            many::advance::<T, V::StreamVector>(&mut self)
         }
     }
 }
@@ -70,7 +70,7 @@ fn few<T: Real, V: Vector<T>, const N: usize>(task: &mut Advance<'_, '_, '_, T>)
         // a block is long: without this, memory waits until it is done
         if let Some(lines) = later.get((AHEAD - 1) * length..AHEAD * length) {
             for line in lines {
-                V::Abreast::prefetch(line);
+                V::StreamVector::prefetch(line);
             }
         }
         rest = later;
@@ -78,11 +78,11 @@ fn few<T: Real, V: Vector<T>, const N: usize>(task: &mut Advance<'_, '_, '_, T>)
         let strength = part.strengths[block.min(last)].0.as_ref();
         let y = rows::outputs(samples, streams.clone());
         let mut report = report::Report::new();
-        for lane in (0..lanes).step_by(V::Abreast::COUNT) {
+        for lane in (0..lanes).step_by(V::StreamVector::COUNT) {
             let phi = rows::columns(rows, lane);
-            let state = few::State::<T, V::Abreast, N>::of(lines, lane);
-            let strength = V::Abreast::read(&strength[lane..]);
-            let y = V::Abreast::read(&y.0.as_ref()[lane..]);
+            let state = few::State::<T, V::StreamVector, N>::of(lines, lane);
+            let strength = V::StreamVector::read(&strength[lane..]);
+            let y = V::StreamVector::read(&y.0.as_ref()[lane..]);
             let outcome = few::advance(state, (part.form, strength), (&phi, y), with_leverage);
             report.note(lane, &outcome);
         }
@@ -101,7 +101,7 @@ struct LaneOutcome<A> {
 }
 
 /// What becomes of the sample of each stream.
-struct Fate<T: Real, A: Abreast<T>> {
+struct Fate<T: Real, A: StreamVector<T>> {
     /// neither error nor ‖φ‖² is NaN or out of range
     accepted: A::Mask,
     /// ... and the sample is not in the dead zone
@@ -112,7 +112,7 @@ struct Fate<T: Real, A: Abreast<T>> {
 
 /// Where neither is NaN or out of range.
 #[inline(always)]
-fn accepts<T: Real, A: Abreast<T>>(error: A, squares: A) -> A::Mask {
+fn accepts<T: Real, A: StreamVector<T>>(error: A, squares: A) -> A::Mask {
     let ceiling = A::splat(T::CEILING);
     A::both(error.abs().at_most(ceiling), squares.at_most(ceiling))
 }
@@ -120,7 +120,7 @@ fn accepts<T: Real, A: Abreast<T>>(error: A, squares: A) -> A::Mask {
 impl<T: Real> DeadZone<T> {
     /// Where a regressor with this ‖φ̄‖² is not in it.
     #[inline(always)]
-    fn leaves<A: Abreast<T>>(self, squares: A) -> A::Mask {
+    fn leaves<A: StreamVector<T>>(self, squares: A) -> A::Mask {
         match self {
             Self::Below(least) => A::splat(least).at_most(squares.sqrt()),
             Self::UpTo(most) => A::splat(most).less_than(squares.sqrt()),
@@ -136,7 +136,7 @@ trait Trace<A> {
 
 /// The bound of P's trace after growing so, and where of `wanted` there is room for that.
 #[inline(always)]
-fn make_room<T: Real, A: Abreast<T>>(
+fn make_room<T: Real, A: StreamVector<T>>(
     bound: A,
     (growth, added): (A, A),
     wanted: A::Mask,
@@ -152,8 +152,8 @@ fn make_room<T: Real, A: Abreast<T>>(
     (next, A::both(wanted, next.less_than(ceiling)))
 }
 
-/// c, t = 1/c, z and q of the streams that add nothing: 0, 1 and zeros.
+/// In which lanes c·fᵀf is to be added: c > 0 and finite.
 #[inline(always)]
-fn adds<T: Real, A: Abreast<T>>(c: A) -> A::Mask {
+fn adds<T: Real, A: StreamVector<T>>(c: A) -> A::Mask {
     A::both(A::splat(T::ZERO).less_than(c), c.less_than(A::splat(T::from_f64(f64::INFINITY))))
 }

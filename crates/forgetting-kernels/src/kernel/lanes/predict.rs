@@ -3,7 +3,7 @@
 use crate::kernel::dispatch::Kernel;
 use crate::kernel::lanes::storage::{Layout, Line};
 use crate::number::lane::Lane;
-use crate::number::vector::{Abreast, Vector};
+use crate::number::vector::{StreamVector, Vector};
 use crate::number::{copy_first, Real};
 
 /// Writes φθ of each stream to `prediction`.
@@ -29,20 +29,21 @@ impl<T: Real> Kernel<T> for Predict<'_, T> {
     #[inline(always)]
     fn run<V: Vector<T>, const GROUP: usize>(self) {
         let Self { layout, lines, phi, prediction } = self;
-        let (lanes, first) = (Line::<T>::LANES, layout.theta());
-        let n = layout.length() - first;
-        let blocks = lines.chunks_exact(layout.length());
-        let samples = phi.chunks(n * lanes).zip(prediction.chunks_mut(lanes));
-        for (block, (phi, prediction)) in blocks.zip(samples) {
+        let (lanes, length, first) = (Line::<T>::LANES, layout.length(), layout.theta());
+        let n = length - first;
+        for (b, prediction) in prediction.chunks_mut(lanes).enumerate() {
+            let block = &lines[b * length..(b + 1) * length];
+            let phi = &phi[b * n * lanes..];
             let mut products = Line::splat(T::ZERO);
-            for lane in (0..lanes).step_by(V::Abreast::COUNT) {
-                let mut product = V::Abreast::splat(T::ZERO);
+            for lane in (0..lanes).step_by(V::StreamVector::COUNT) {
+                let mut product = V::StreamVector::splat(T::ZERO);
                 for (i, theta) in block[first..].iter().enumerate() {
-                    let phi = V::Abreast::at(|k| match phi.get((lane + k) * n + i) {
+                    let phi = V::StreamVector::at(|k| match phi.get((lane + k) * n + i) {
                         Some(&phi) => phi,
                         None => T::ZERO,
                     });
-                    product = phi.mul_add(V::Abreast::read(&theta.0.as_ref()[lane..]), product);
+                    product =
+                        phi.mul_add(V::StreamVector::read(&theta.0.as_ref()[lane..]), product);
                 }
                 product.write(&mut products.0.as_mut()[lane..]);
             }

@@ -1,13 +1,13 @@
 //! What became of the samples of a few streams, written where it was asked for.
 
-use super::{Abreast, Fate, LaneOutcome, Line, Outputs, Real, DEAD_ZONE, MISSING, REFUSED};
+use super::{Fate, LaneOutcome, Line, Outputs, Real, StreamVector, DEAD_ZONE, MISSING, REFUSED};
 use crate::number::copy_first;
 use core::ops::Range;
 
 /// The outcome where not every stream used its sample; `silent` is the leverage of those in the
 /// dead zone.
 #[inline(always)]
-pub fn mixed<T: Real, A: Abreast<T>>(
+pub fn mixed<T: Real, A: StreamVector<T>>(
     fate: &Fate<T, A>,
     (y, squares): (A, A),
     all: LaneOutcome<A>,
@@ -25,11 +25,11 @@ pub fn mixed<T: Real, A: Abreast<T>>(
 
 /// A code in every lane.
 #[inline(always)]
-fn code<T: Real, A: Abreast<T>>(code: u8) -> A {
+fn code<T: Real, A: StreamVector<T>>(code: u8) -> A {
     A::splat(T::from_f64(f64::from(code)))
 }
 
-impl<T: Real, A: Abreast<T>> Fate<T, A> {
+impl<T: Real, A: StreamVector<T>> Fate<T, A> {
     /// One of three for each stream: for those that used their samples, for those in the dead zone,
     /// and for all that are without one.
     #[inline(always)]
@@ -60,7 +60,7 @@ impl<T: Real> Report<T> {
 
     /// Takes note of what the streams from `lane` on outputs.
     #[inline(always)]
-    pub fn note<A: Abreast<T>>(&mut self, lane: usize, outcome: &LaneOutcome<A>) {
+    pub fn note<A: StreamVector<T>>(&mut self, lane: usize, outcome: &LaneOutcome<A>) {
         outcome.error.write(&mut self.error.0.as_mut()[lane..]);
         outcome.leverage.write(&mut self.leverage.0.as_mut()[lane..]);
         if let Some(codes) = outcome.codes {

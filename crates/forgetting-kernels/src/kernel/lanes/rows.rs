@@ -1,12 +1,15 @@
 //! The samples of a block: numbers of one stream after the other, as vectors with a stream in
 //! each lane.
 
-use super::{Abreast, Line, Real, Samples};
+use super::{Line, Real, Samples, StreamVector};
 use core::ops::Range;
 
 /// The regressors of the streams from `lane` on as columns; zeros in the lanes that are over.
 #[inline(always)]
-pub fn columns<T: Real, A: Abreast<T>, const N: usize>(rows: &[[T; N]], lane: usize) -> [A; N] {
+pub fn columns<T: Real, A: StreamVector<T>, const N: usize>(
+    rows: &[[T; N]],
+    lane: usize,
+) -> [A; N] {
     if let Some(rows) = rows.get(lane..lane + A::COUNT) {
         return A::columns(rows);
     }

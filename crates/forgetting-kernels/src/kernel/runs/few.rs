@@ -101,12 +101,13 @@ fn take<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const FORM: u8>(
     let Steps { place, form, phi, y, outcomes, thetas, .. } = task;
     let mut bounds = Bounds { kept: &mut *place.bound, tight: *trace };
     let mut after = thetas.get_mut(at * N..).unwrap_or_default().as_chunks_mut::<N>().0.iter_mut();
-    let samples = phi[at * N..].as_chunks::<N>().0.iter().zip(&y[at..]).zip(&mut outcomes[at..]);
+    let (phi, y, outcomes) = (phi[at * N..].as_chunks::<N>().0, &y[at..], &mut outcomes[at..]);
+    let count = phi.len().min(y.len()).min(outcomes.len());
     let (mut least, mut taken) = (small.least(), 0);
-    for ((f, &y), outcome) in samples {
-        let f = A::splat_each(f);
+    for k in 0..count {
+        let (f, outcome) = (A::splat_each(&phi[k]), &mut outcomes[k]);
         let (product, squares) = few_products(&f, theta);
-        let (error, squares) = (y - product.get(), squares.get());
+        let (error, squares) = (y[k] - product.get(), squares.get());
         if !accepts(error, squares) {
             break;
         }

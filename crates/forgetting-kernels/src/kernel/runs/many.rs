@@ -146,7 +146,7 @@ fn measure_batch<T: Real, V: Vector<T>, const GROUP: usize>(
     (grown < T::CEILING).then_some(())?;
     keeps_digits(leverage * (grown / *bound)).then_some(())?;
     let mut shared = [[T::ZERO; BATCH]; BATCH];
-    let measured = room.measure::<V::Eight, GROUP>(growth, &mut shared)?;
+    let measured = room.measure::<V::BlockVector, GROUP>(growth, &mut shared)?;
     for l in 0..BATCH {
         for m in 0..l {
             let step = errors[m] * measured[m].inverse_variance;
@@ -174,22 +174,22 @@ fn two<T: Real, V: Vector<T>, const GROUP: usize>(
     let (predicted, [first, second]) = predict::<T, V, 2>(theta, room.f);
     (!form.leaves_out(first) && !form.leaves_out(second)).then_some(())?;
     room.look::<V, GROUP>(place.columns, place.diagonal);
-    let (mut bound, leverage) = (*place.bound, room.leverage::<V::Eight>(1));
+    let (mut bound, leverage) = (*place.bound, room.leverage::<V::BlockVector>(1));
 
-    let information = room.information::<V::Eight, 0>();
+    let information = room.information::<V::BlockVector, 0>();
     let added = more(weight, information, first)?;
     keeps_digits(leverage + added * second).then_some(())?;
     bound += added;
     let (measured, _, above) =
-        room.add_and_measure::<V::Eight, 0>(information / weight, information);
+        room.add_and_measure::<V::BlockVector, 0>(information / weight, information);
     let error = y[0] - predicted[0];
     let step = error * measured.inverse_variance;
     (above && accepts(error, first)).then_some(())?;
 
-    let information = room.information::<V::Eight, 1>();
+    let information = room.information::<V::BlockVector, 1>();
     bound += more(weight, information, second)?;
     let (after, shared, above) =
-        room.add_and_measure::<V::Eight, 1>(information / weight, information);
+        room.add_and_measure::<V::BlockVector, 1>(information / weight, information);
     let later = (-step).mul_add(shared, y[1] - predicted[1]);
     (above && accepts(later, second) && bound < T::CEILING).then_some(())?;
 

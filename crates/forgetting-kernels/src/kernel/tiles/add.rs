@@ -13,8 +13,8 @@ pub fn add_columns<T: Real, V: Vector<T>>(
 ) {
     let factors = splat::<T, V, 8, 0>(factors);
     let (full, tail) = x.first(block.len());
-    for (tile, x) in block.iter().zip(full) {
-        add_tile(tile, x, &factors);
+    for t in 0..block.len().min(full.len()) {
+        add_tile(&block[t], &mut full[t], &factors);
     }
     if let (Some(tile), Some(x)) = (block.last(), tail) {
         add_tile(tile, x, &factors);

@@ -69,7 +69,7 @@ impl<'a, T: Real> LongMut<'a, T> {
 
     /// The numbers of block `b`.
     #[inline(always)]
-    pub fn eight(&mut self, b: usize) -> &mut PerColumn<T> {
+    pub fn per_column(&mut self, b: usize) -> &mut PerColumn<T> {
         match self.chunk_mut(b * BLOCK / T::ROWS).as_mut()[b * BLOCK % T::ROWS..].first_chunk_mut()
         {
             Some(eight) => eight,

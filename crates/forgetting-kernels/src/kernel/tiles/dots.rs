@@ -10,7 +10,7 @@ use crate::number::Real;
 pub fn dots<T: Real, V: Vector<T>, const GROUP: usize>(
     block: &[Tile<T>],
     f: &Long<'_, T>,
-) -> V::Eight {
+) -> V::BlockVector {
     if GROUP >= 8 {
         return V::eight_sums(of_columns::<T, V, 8, 0>(block, f));
     }
@@ -23,8 +23,8 @@ pub fn dots<T: Real, V: Vector<T>, const GROUP: usize>(
 pub fn dots_beside<T: Real, V: Vector<T>, const GROUP: usize, const S: usize>(
     block: &[Tile<T>],
     f: &[[T::Chunk; S]],
-) -> [V::Eight; S] {
-    let mut dots = [V::Eight::splat(T::ZERO); S];
+) -> [V::BlockVector; S] {
+    let mut dots = [V::BlockVector::splat(T::ZERO); S];
     for s in 0..S {
         if GROUP < 8 {
             let [first] = beside::<T, V, 4, 0, S, 1>(block, f, s);
@@ -54,13 +54,13 @@ where
     V: Vector<T>,
 {
     let mut sums = [[V::splat(T::ZERO); C]; W];
-    for (tile, f) in block.iter().zip(f) {
+    for t in 0..block.len().min(f.len()) {
         let mut own = [V::splat(T::ZERO); W];
         for w in 0..W {
-            own[w] = V::load(&f[s + w]);
+            own[w] = V::load(&f[t][s + w]);
         }
         for c in 0..C {
-            let u = V::load(&tile[FIRST + c]);
+            let u = V::load(&block[t][FIRST + c]);
             for w in 0..W {
                 sums[w][c] = u.mul_add(own[w], sums[w][c]);
             }
@@ -76,8 +76,8 @@ fn of_columns<T: Real, V: Vector<T>, const C: usize, const FIRST: usize>(
 ) -> [V; C] {
     let mut sums = [V::splat(T::ZERO); C];
     let (full, tail) = f.first(block.len());
-    for (tile, f) in block.iter().zip(full) {
-        add_tile::<T, V, C, FIRST>(tile, f, &mut sums);
+    for t in 0..block.len().min(full.len()) {
+        add_tile::<T, V, C, FIRST>(&block[t], &full[t], &mut sums);
     }
     if let (Some(tile), Some(f)) = (block.last(), tail) {
         add_tile::<T, V, C, FIRST>(tile, f, &mut sums);

@@ -28,8 +28,8 @@ fn columns<T: Real, V: Vector<T>, const C: usize, const FIRST: usize>(
 ) {
     let factors = (splat::<T, V, C, FIRST>(slope), splat::<T, V, C, FIRST>(less_s));
     let (full, tail) = x.first(block.len());
-    for (tile, x) in block.iter_mut().zip(full) {
-        eliminate_tile::<T, V, C, FIRST>(tile, x, &factors);
+    for t in 0..block.len().min(full.len()) {
+        eliminate_tile::<T, V, C, FIRST>(&mut block[t], &mut full[t], &factors);
     }
     if let (Some(tile), Some(x)) = (block.last_mut(), tail) {
         eliminate_tile::<T, V, C, FIRST>(tile, x, &factors);

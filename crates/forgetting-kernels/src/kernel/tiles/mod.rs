@@ -16,11 +16,11 @@ pub use eliminate::eliminate;
 pub use rank_one::{change_columns, change_row, RankOne};
 
 use super::layout::{tiles_of, BLOCK};
-use crate::number::eight::Eight;
+use crate::number::block_vector::BlockVector;
 use crate::number::vector::Vector;
 use crate::number::{copy_first, copy_some, Real};
 
-/// Eight columns of as many rows as a vector has numbers.
+/// BlockVector columns of as many rows as a vector has numbers.
 pub type Tile<T> = [<T as Real>::Chunk; BLOCK];
 /// A number for each column of a block.
 pub type PerColumn<T> = [T; BLOCK];
@@ -45,7 +45,9 @@ pub fn triangle<T: Real>(block: &[Tile<T>], b: usize) -> [PerColumn<T>; BLOCK] {
         let first = b * BLOCK % T::ROWS;
         for c in 0..BLOCK {
             let column = &tile[c].as_ref()[first..first + BLOCK];
-            triangle[c][..c].copy_from_slice(&column[..c]);
+            for i in 0..c {
+                triangle[c][i] = column[i];
+            }
         }
     }
     triangle
@@ -54,7 +56,7 @@ pub fn triangle<T: Real>(block: &[Tile<T>], b: usize) -> [PerColumn<T>; BLOCK] {
 /// Those of `numbers` that belong to block `b`; `padding` past the last of them.
 // read in each arm: an array that a `match` returns is copied number by number
 #[inline(always)]
-pub fn load_eight<T: Real, E: Eight<T>>(numbers: &[T], b: usize, padding: T) -> E {
+pub fn load_per_column<T: Real, E: BlockVector<T>>(numbers: &[T], b: usize, padding: T) -> E {
     let numbers = &numbers[b * BLOCK..];
     match numbers.first_chunk() {
         Some(eight) => E::read(eight),
@@ -75,7 +77,7 @@ pub fn padding_d<T: Real>() -> T {
 
 /// Puts them back.
 #[inline(always)]
-pub fn store_eight<T: Real, E: Eight<T>>(numbers: &mut [T], b: usize, eight: E) {
+pub fn store_per_column<T: Real, E: BlockVector<T>>(numbers: &mut [T], b: usize, eight: E) {
     let numbers = &mut numbers[b * BLOCK..];
     match numbers.first_chunk_mut() {
         Some(numbers) => eight.write(numbers),

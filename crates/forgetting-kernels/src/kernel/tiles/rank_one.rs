@@ -2,7 +2,7 @@
 //! other with one load and one store of each column.
 
 use super::{LongMut, PerColumn, Tile, BLOCK};
-use crate::number::eight::Eight;
+use crate::number::block_vector::BlockVector;
 use crate::number::vector::Vector;
 use crate::number::Real;
 use core::ops::Range;
@@ -20,14 +20,14 @@ pub struct RankOne<'a, T> {
 impl<T: Real> RankOne<'_, T> {
     /// [`change_row`] with numbers that are in memory.
     #[inline(always)]
-    pub fn change_row<E: Eight<T>>(&self, w: E, x: &mut E) -> E {
+    pub fn change_row<E: BlockVector<T>>(&self, w: E, x: &mut E) -> E {
         change_row(w, (E::read(self.slope), E::read(self.factor)), x)
     }
 }
 
 /// The same change of `w`, one row across the block; `x` is carried along, the same in every lane.
 #[inline(always)]
-pub fn change_row<T: Real, E: Eight<T>>(w: E, (slope, factor): (E, E), x: &mut E) -> E {
+pub fn change_row<T: Real, E: BlockVector<T>>(w: E, (slope, factor): (E, E), x: &mut E) -> E {
     let sums = *x + (factor * w).running_sums();
     let changed = slope.mul_add(sums.before(*x), w);
     *x = sums.last();

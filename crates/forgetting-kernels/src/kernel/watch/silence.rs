@@ -23,14 +23,15 @@ impl<T: Real> Silence<'_, T> {
         let n = variances.len();
         let (variances, variances_rest) = T::chunks(variances);
         let (since, since_rest) = T::chunks_mut(since);
-        for (i, (since, variance)) in since.iter_mut().zip(variances).enumerate() {
+        for i in 0..since.len().min(variances.len()) {
             let regressor = |row| V::load(&T::chunks(row).0[i]);
-            let limits = (V::load(variance), V::splat(least));
-            renew(samples, (n, regressor), limits, V::load(since)).store(since);
+            let limits = (V::load(&variances[i]), V::splat(least));
+            renew(samples, (n, regressor), limits, V::load(&since[i])).store(&mut since[i]);
         }
-        for (i, (since, &variance)) in since_rest.iter_mut().zip(variances_rest).enumerate() {
+        for i in 0..since_rest.len().min(variances_rest.len()) {
             let regressor = |row| T::chunks(row).1[i];
-            *since = renew(samples, (n, regressor), (variance, least), *since);
+            let limits = (variances_rest[i], least);
+            since_rest[i] = renew(samples, (n, regressor), limits, since_rest[i]);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! D after a measurement, column by column.
 
 use super::work::{get, put, Work};
-use super::{read, write, Abreast, Columns, Layout, Real};
+use super::{read, write, Columns, Layout, Real, StreamVector};
 use crate::kernel::registers::floor;
 
 /// What measuring brought.
@@ -12,7 +12,7 @@ pub struct Measured<A> {
     lifted: bool,
 }
 
-impl<T: Real, A: Abreast<T>> Columns<'_, T, A> {
+impl<T: Real, A: StreamVector<T>> Columns<'_, T, A> {
     /// D after the measurement of a regressor with w = Uᵀf.
     #[inline(always)]
     pub fn chain(&mut self, work: &mut Work<'_, T>) -> Measured<A> {

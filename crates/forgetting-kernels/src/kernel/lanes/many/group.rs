@@ -2,7 +2,7 @@
 //! all of them, and none waits for another.
 
 use super::work::{get, put, Work};
-use super::{read, write, Abreast, Line, Real};
+use super::{read, write, Line, Real, StreamVector};
 use core::marker::PhantomData;
 
 /// Calls the method for one group of columns after the other, from the first.
@@ -52,7 +52,7 @@ const fn none<'a, T: Real>() -> &'a mut [Line<T>] {
     &mut []
 }
 
-impl<'a, T: Real, A: Abreast<T>, const C: usize> Group<'a, T, A, C> {
+impl<'a, T: Real, A: StreamVector<T>, const C: usize> Group<'a, T, A, C> {
     /// `lines` starts with them.
     #[inline(always)]
     pub fn of(mut lines: &'a mut [Line<T>], first: usize, lane: usize) -> Self {
@@ -175,7 +175,7 @@ impl<'a, T: Real, A: Abreast<T>, const C: usize> Group<'a, T, A, C> {
 
 /// A number of a column after the measurement, and the gain of its row.
 #[inline(always)]
-fn measured<T: Real, A: Abreast<T>>(before: A, (w, v, inverse): (A, A, A), k: &mut A) -> A {
+fn measured<T: Real, A: StreamVector<T>>(before: A, (w, v, inverse): (A, A, A), k: &mut A) -> A {
     let after = (-(w * *k)).mul_add(inverse, before);
     *k = v.mul_add(before, *k);
     after
@@ -183,7 +183,7 @@ fn measured<T: Real, A: Abreast<T>>(before: A, (w, v, inverse): (A, A, A), k: &m
 
 /// A number of a column after P ← P + c·fᵀf, and the x of its row.
 #[inline(always)]
-fn widened<T: Real, A: Abreast<T>>(before: A, (slope, z): (A, A), x: &mut A) -> A {
+fn widened<T: Real, A: StreamVector<T>>(before: A, (slope, z): (A, A), x: &mut A) -> A {
     let after = slope.mul_add(*x, before);
     *x = z.mul_add(before, *x);
     after

@@ -1,7 +1,7 @@
 //! Blocks of streams of more than ten parameters: the equations of [`super::super::registers`],
 //! a few columns at a time.
 
-use super::{accepts, adds, make_room, report, rows, Abreast, Advance, Fate, Form, Line};
+use super::{accepts, adds, make_room, report, rows, Advance, Fate, Form, Line, StreamVector};
 use super::{LaneOutcome, Real, Trace};
 use crate::kernel::lanes::storage::Layout;
 use chain::Measured;
@@ -17,14 +17,15 @@ pub use work::SCRATCH;
 
 /// Goes through the blocks.
 #[inline(always)]
-pub fn advance<T: Real, A: Abreast<T>>(task: &mut Advance<'_, '_, '_, T>) -> usize {
+pub fn advance<T: Real, A: StreamVector<T>>(task: &mut Advance<'_, '_, '_, T>) -> usize {
     let Advance { streams: part, samples, outputs } = task;
     let (n, lanes, last) = (part.n, Line::<T>::LANES, part.strengths.len() - 1);
     let with_leverage = outputs.leverage.is_some();
     let mut work = Work::of(part.scratch, n);
-    let blocks = part.lines.chunks_exact_mut(Layout::new(n).length());
+    let length = Layout::new(n).length();
     let mut used = 0;
-    for (block, (lines, phi)) in blocks.zip(samples.phi.chunks(n * lanes)).enumerate() {
+    for (block, phi) in samples.phi.chunks(n * lanes).enumerate() {
+        let lines = &mut part.lines[block * length..(block + 1) * length];
         let streams = block * lanes..block * lanes + phi.len() / n;
         let strength = part.strengths[block.min(last)].0.as_ref();
         let y = rows::outputs(samples, streams.clone());
@@ -57,16 +58,16 @@ struct Columns<'a, T: Real, A> {
 }
 
 #[inline(always)]
-fn read<T: Real, A: Abreast<T>>(line: &Line<T>, lane: usize) -> A {
+fn read<T: Real, A: StreamVector<T>>(line: &Line<T>, lane: usize) -> A {
     A::read(&line.0.as_ref()[lane..])
 }
 
 #[inline(always)]
-fn write<T: Real, A: Abreast<T>>(line: &mut Line<T>, lane: usize, numbers: A) {
+fn write<T: Real, A: StreamVector<T>>(line: &mut Line<T>, lane: usize, numbers: A) {
     numbers.write(&mut line.0.as_mut()[lane..]);
 }
 
-impl<T: Real, A: Abreast<T>> Trace<A> for Columns<'_, T, A> {
+impl<T: Real, A: StreamVector<T>> Trace<A> for Columns<'_, T, A> {
     #[inline(always)]
     fn trace(&self) -> A {
         let (zero, one) = (A::splat(T::ZERO), A::splat(T::ONE));
@@ -83,7 +84,7 @@ impl<T: Real, A: Abreast<T>> Trace<A> for Columns<'_, T, A> {
     }
 }
 
-impl<'a, T: Real, A: Abreast<T>> Columns<'a, T, A> {
+impl<'a, T: Real, A: StreamVector<T>> Columns<'a, T, A> {
     /// The streams of a block from `lane` on.
     #[inline(always)]
     fn of(lines: &'a mut [Line<T>], lane: usize, n: usize) -> Self {

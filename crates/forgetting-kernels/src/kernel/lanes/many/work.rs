@@ -1,6 +1,6 @@
 //! What a few streams of many parameters need while they take a sample.
 
-use super::{Abreast, Line, Real};
+use super::{Line, Real, StreamVector};
 
 /// The most streams at a time.
 const MOST: usize = 16;
@@ -25,12 +25,12 @@ pub struct Work<'a, T: Real> {
 }
 
 #[inline(always)]
-pub fn get<T: Real, A: Abreast<T>>(lines: &[Line<T>], at: usize) -> A {
+pub fn get<T: Real, A: StreamVector<T>>(lines: &[Line<T>], at: usize) -> A {
     A::read(lines[at].0.as_ref())
 }
 
 #[inline(always)]
-pub fn put<T: Real, A: Abreast<T>>(lines: &mut [Line<T>], at: usize, numbers: A) {
+pub fn put<T: Real, A: StreamVector<T>>(lines: &mut [Line<T>], at: usize, numbers: A) {
     numbers.write(lines[at].0.as_mut());
 }
 
@@ -62,7 +62,7 @@ impl<'a, T: Real> Work<'a, T> {
     /// What is not `used` is to change no number, nor the sign of a zero: products of these zeros, and
     /// sums with them, leave everything as it is.
     #[inline(always)]
-    pub fn leave_out<A: Abreast<T>>(&mut self, used: A::Mask) {
+    pub fn leave_out<A: StreamVector<T>>(&mut self, used: A::Mask) {
         let zero = A::splat(T::ZERO);
         for i in 0..self.f.len() {
             put(self.f, i, A::select(used, get(self.f, i), zero));
@@ -73,7 +73,7 @@ impl<'a, T: Real> Work<'a, T> {
 
     /// n numbers for each stream from `lane` on; zeros where there is none.
     #[inline(always)]
-    pub fn regressors<A: Abreast<T>>(&mut self, phi: &[T], lane: usize) {
+    pub fn regressors<A: StreamVector<T>>(&mut self, phi: &[T], lane: usize) {
         let n = self.f.len();
         let mut rows = [&[][..]; MOST];
         for k in 0..A::COUNT {

@@ -4,8 +4,8 @@ use crate::number::lane::Lane;
 use crate::number::lanes::Lanes;
 use crate::number::Real;
 
-/// Eight numbers: what passes from column to column is done for all eight side by side.
-pub trait Eight<T: Real>: Lane<T> {
+/// BlockVector numbers: what passes from column to column is done for all eight side by side.
+pub trait BlockVector<T: Real>: Lane<T> {
     /// Loads `numbers`.
     fn read(numbers: &[T; 8]) -> Self;
     /// Stores into `numbers`.
@@ -17,7 +17,7 @@ pub trait Eight<T: Real>: Lane<T> {
     fn before(self, first: Self) -> Self;
     /// The last, eight times.
     fn last(self) -> Self;
-    /// The sums of all from each on to the last: [`Eight::running_sums`] from the other end.
+    /// The sums of all from each on to the last: [`BlockVector::running_sums`] from the other end.
     fn remaining_sums(self) -> Self;
     /// The number after each; after the last comes that of `last`.
     fn after(self, last: Self) -> Self;
@@ -33,7 +33,7 @@ pub trait Eight<T: Real>: Lane<T> {
     }
 }
 
-impl<T: Real> Eight<T> for Lanes<T, 8> {
+impl<T: Real> BlockVector<T> for Lanes<T, 8> {
     #[inline(always)]
     fn read(numbers: &[T; 8]) -> Self {
         Self(*numbers)
@@ -85,12 +85,12 @@ impl<T: Real> Lanes<T, 8> {
 
 #[cfg(test)]
 mod tests {
-    use super::Eight;
+    use super::BlockVector;
     use crate::number::lanes::Lanes;
 
     #[test]
     fn sums_and_neighbours() {
-        let of = |numbers| <Lanes<f64, 8> as Eight<f64>>::read(&numbers);
+        let of = |numbers| <Lanes<f64, 8> as BlockVector<f64>>::read(&numbers);
         let x = of([1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]);
         assert_eq!(x.running_sums().numbers(), [1.0, 3.0, 6.0, 10.0, 15.0, 21.0, 28.0, 36.0]);
         assert_eq!(x.remaining_sums().numbers(), [36.0, 35.0, 33.0, 30.0, 26.0, 21.0, 15.0, 8.0]);

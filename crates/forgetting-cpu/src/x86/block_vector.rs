@@ -7,9 +7,9 @@ use super::single::Single;
 use super::{at, at_mut, Pair, Wide};
 use crate::fused::Fused;
 use core::arch::x86_64::*;
-use forgetting_kernels::number::eight::Eight;
+use forgetting_kernels::number::block_vector::BlockVector;
 
-impl Eight<Fused<f64>> for Pair<__m256d> {
+impl BlockVector<Fused<f64>> for Pair<__m256d> {
     #[inline(always)]
     fn read(numbers: &[Fused<f64>; 8]) -> Self {
         unsafe {
@@ -121,7 +121,7 @@ unsafe fn last(x: __m256d) -> __m256d {
     }
 }
 
-impl Eight<Fused<f64>> for Wide<__m512d> {
+impl BlockVector<Fused<f64>> for Wide<__m512d> {
     #[inline(always)]
     fn read(numbers: &[Fused<f64>; 8]) -> Self {
         Self(unsafe { _mm512_loadu_pd(at!(numbers, f64, 0)) })
@@ -176,7 +176,7 @@ impl Eight<Fused<f64>> for Wide<__m512d> {
     }
 }
 
-impl Eight<Fused<f32>> for Single<__m256> {
+impl BlockVector<Fused<f32>> for Single<__m256> {
     #[inline(always)]
     fn read(numbers: &[Fused<f32>; 8]) -> Self {
         Self(unsafe { _mm256_loadu_ps(at!(numbers, f32, 0)) })
