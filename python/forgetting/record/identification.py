@@ -124,6 +124,18 @@ class Identification(Counts):
         """Write `estimates` as Parquet or CSV, by suffix."""
         estimates.save(self.estimates(), Path(path))
 
+    def clock(self) -> dict[str, Any] | None:
+        """Which column is the clock, how it was read, its gaps, and the rows whose lags it cut."""
+        clock = self.samples.clock
+        if clock is None:
+            return None
+        return {
+            "column": clock.name,
+            "kind": clock.kind,
+            "gaps": int(clock.is_gap.sum()),
+            "lags_cut": self.samples.cut,
+        }
+
     def summary(self) -> dict[str, Any]:
         """What `forgetting identify` prints, for JSON: None where a number is not finite."""
         rows = self.parameters.to_dict("records")
@@ -134,6 +146,8 @@ class Identification(Counts):
             "rule": repr(self.rule),
             "parameters": rows,
             "rmse": self.scores.by_output(self.samples.outputs),
+            "read_as": self.samples.found.to_dict(),
+            "clock": self.clock(),
             "samples": self.counts() | {"scored": self.scores.samples},
             "covariance": {
                 "smallest_eigenvalue": float(ends[0]),
