@@ -43,7 +43,7 @@ def test_half_a_parquet_file(tmp_path):
     path = tmp_path / "record.parquet"
     pd.DataFrame({"x": np.arange(100.0)}).to_parquet(path)
     path.write_bytes(path.read_bytes()[:-100])
-    with pytest.raises(RecordError, match="is not a Parquet file"):
+    with pytest.raises(RecordError, match="is no Parquet file"):
         read(path)
 
 

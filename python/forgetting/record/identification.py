@@ -13,6 +13,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from forgetting.analysis import Excited, Guarantee, excited, guaranteed_bounds
+from forgetting.files import check_outputs
 from forgetting.record import estimates
 from forgetting.record.counts import Counts
 from forgetting.record.samples import Samples
@@ -122,19 +123,8 @@ class Identification(Counts):
 
     def save_estimates(self, path: str | Path) -> None:
         """Write `estimates` as Parquet or CSV, by suffix."""
+        check_outputs({"estimates": Path(path)}, self.samples.found.path)
         estimates.save(self.estimates(), Path(path))
-
-    def clock(self) -> dict[str, Any] | None:
-        """Which column is the clock, how it was read, its gaps, and the rows whose lags it cut."""
-        clock = self.samples.clock
-        if clock is None:
-            return None
-        return {
-            "column": clock.name,
-            "kind": clock.kind,
-            "gaps": int(clock.is_gap.sum()),
-            "lags_cut": self.samples.cut,
-        }
 
     def summary(self) -> dict[str, Any]:
         """What `forgetting identify` prints, for JSON: None where a number is not finite."""
@@ -147,7 +137,7 @@ class Identification(Counts):
             "parameters": rows,
             "rmse": self.scores.by_output(self.samples.outputs),
             "read_as": self.samples.found.to_dict(),
-            "clock": self.clock(),
+            "clock": self.samples.clock_as_data(),
             "samples": self.counts() | {"scored": self.scores.samples},
             "covariance": {
                 "smallest_eigenvalue": float(ends[0]),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -63,16 +64,37 @@ class Samples:
                 f"in row {row + 1} of {self.source}"
             )
         if not self.complete.any():
-            cut = f"; {self.clock_in_words()}" if self.cut else ""
+            cut = f"; {self.clock_in_words()}; --time none ignores it" if self.cut else ""
             raise RecordError(
                 f"{self.source} has no complete sample: in each of its {len(self.y)} rows "
                 f"a value is missing or a lag reaches before the record or across a gap{cut}"
             )
         return self
 
+    def clock_as_data(self) -> dict[str, Any] | None:
+        """Which column is the clock, how it was read, its gaps, and the rows whose lags it cut."""
+        if self.clock is None:
+            return None
+        return {
+            "column": self.clock.name,
+            "kind": self.clock.kind,
+            "gaps": int(self.clock.is_gap.sum()),
+            "lags_cut": self.cut,
+        }
+
+    def facts(self) -> list[tuple[str, str]]:
+        """How the record was read, as pairs of a word and what it is."""
+        pairs = [("rows", str(len(self.y))), ("read as", self.found.words())]
+        pairs.append(("clock", self.clock_in_words()))
+        if self.found.units:
+            pairs.append(("units", self.found.names_with_units()))
+        if self.found.skipped:
+            pairs.append(("left out", "; ".join(self.found.skipped)))
+        return pairs
+
     def clock_in_words(self) -> str:
         """Which column is the clock, and what it did to the lags."""
         if self.clock is None:
             return "no clock; lags count rows"
         rows = f"{self.cut} row{'s' * (self.cut != 1)}"
-        return f"the clock is {self.clock}; it cut the lags of {rows}"
+        return f"clock {self.clock}; it cut the lags of {rows}"

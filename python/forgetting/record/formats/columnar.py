@@ -49,5 +49,5 @@ def whole(module: str, function: str, source: Any, name: str, kind: str) -> pd.D
     try:
         frame: pd.DataFrame = getattr(library, function)(source).to_pandas()
     except (OSError, ValueError, TypeError) as error:
-        raise RecordError(f"{name} is not a {kind} file: {first_line(error)}") from None
+        raise RecordError(f"{name} is no {kind} file: {first_line(error)}") from None
     return frame

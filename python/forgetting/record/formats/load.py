@@ -37,6 +37,7 @@ def load(path: Path, source: str, part: str | None = None, encoding: str | None 
         return columnar.folder(path)
     with opened(path) as stream:
         plain, kind, layers = unpacked(stream, source, part)
+        plain.seek(0)
         if kind == "empty":
             raise RecordError(f"{source} is empty")
         if part is not None and kind in NO_PARTS and "zip" not in layers:
@@ -71,7 +72,11 @@ def by_kind(
     }
     if kind in parts:
         return parts[kind](stream, source, part)
-    what = {"hdf5": "HDF5, which has no rule for where a table lies in it; write it as Parquet"}
+    what = {
+        "hdf5": "HDF5, which has no rule for where a table lies in it; write it as Parquet",
+        "pdf": "PDF, which is made for reading by people; export the table as text",
+        "markup": "HTML or XML, a page and no table; was the right file downloaded?",
+    }
     raise RecordError(
         f"{source} is {what.get(kind, 'no table: it is neither text nor a known format')}"
     )

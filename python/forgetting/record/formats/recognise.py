@@ -23,6 +23,7 @@ MARKS: tuple[tuple[bytes, str], ...] = (
     (b"MDF  ", "mdf"),
     (b"UnFinMF ", "mdf"),
     (b"ULog\x01\x12\x35", "ulog"),
+    (b"%PDF", "pdf"),
 )
 """First bytes of a format and its name here; all that begins with none of them is text."""
 
@@ -48,6 +49,8 @@ def recognise(stream: BinaryIO) -> str:
     if not head.startswith(UNICODE) and sum(byte in CONTROLS for byte in head) > len(head) // 20:
         return "binary" if not looks_wide(head) else "text"
     first = head.removeprefix(UNICODE[2]).lstrip()
+    if first[:9].lower().startswith((b"<!doctype", b"<html", b"<?xml", b"<svg")):
+        return "markup"
     return "json" if first.startswith((b'{"', b"{ ", b"[{", b"{\n", b"[\n")) else "text"
 
 
