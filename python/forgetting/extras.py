@@ -6,8 +6,8 @@ from importlib import import_module
 from typing import Any
 
 
-def extra(module: str, purpose: str) -> Any:
-    """Import a library of the extra `cli`.
+def extra(module: str, purpose: str, name: str = "cli") -> Any:
+    """Import a library of an extra.
 
     Parameters
     ----------
@@ -15,6 +15,8 @@ def extra(module: str, purpose: str) -> Any:
         Such as "scipy.stats".
     purpose : str
         What it is needed for, as the subject of a sentence: "a free run".
+    name : str
+        The extra that brings it.
 
     Raises
     ------
@@ -25,6 +27,5 @@ def extra(module: str, purpose: str) -> Any:
         return import_module(module)
     except ModuleNotFoundError as error:
         package = module.partition(".")[0]
-        raise ImportError(
-            f"{purpose} needs {package}: pip install 'forgetting[cli]' brings it", name=error.name
-        ) from None
+        advice = f"pip install 'forgetting[{name}]' brings it"
+        raise ImportError(f"{purpose} needs {package}: {advice}", name=error.name) from None

@@ -61,8 +61,7 @@ def test_bad_use(forgetting, battery, arguments, words):
         ),
         ("I,V\n1,2\n2,inf\n3,6\n", "column 'V' of record.csv is infinite in row 2"),
         ("I,V\n1,\n,4\n", "no complete sample"),
-        ("I,V,I\n1,2,3\n", "two columns named 'I'"),
-        ("time,I,V\n0,1,2\n0,2,4\n", "time must increase"),
+        ("I,V,I\n1,2,3\n", "2 columns named 'I'; say which: 'I (column 1)', 'I (column 3)'"),
     ],
 )
 def test_bad_data(forgetting, tmp_path, text, words):

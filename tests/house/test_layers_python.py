@@ -21,6 +21,7 @@ NAME = "forgetting"
 LAYERS: tuple[tuple[tuple[str, ...], str], ...] = (
     (("_core",), "the estimators, compiled; all numbers come from here"),
     (("words", "extras"), "text and optional libraries; they need nothing of the package"),
+    (("files",), "how files are written: whole or not at all"),
     (("choices", "health", "meter"), "rules as classes; how one estimator fares"),
     (("registry", "fleet"), "all the classes by name; how many estimators fare"),
     (("models",), "they make regressors and keep an estimator behind them"),

@@ -41,10 +41,13 @@ def test_time_column_that_does_not_exist(csv):
         read(csv("x,y\n1,1\n"), time="clock")
 
 
-@pytest.mark.parametrize("third", ["1", "0.5"])
-def test_time_must_increase(csv, third):
-    with pytest.raises(RecordError, match=r"time must increase, but .* in row 3"):
-        read(csv(f"time,x\n0,1\n1,2\n{third},3\n"))
+@pytest.mark.parametrize(
+    ("third", "words"), [("1", "1 repeated stamp"), ("0.5", "1 step back"), ("", "at a missing")]
+)
+def test_time_that_does_not_go_on_is_a_gap(csv, third, words):
+    clock = read(csv(f"time,x\n0,1\n1,2\n{third},3\n2,4\n3,5\n")).clock
+    assert clock is not None and words in clock.gaps()
+    assert clock.segments()[1] < clock.segments()[2] and not clock.runs_forward
 
 
 def test_gaps():

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 
 import typer
@@ -14,6 +13,7 @@ from forgetting.cli.demo import demo
 from forgetting.cli.identify import identify
 from forgetting.cli.reproduce import reproduce
 from forgetting.cli.rules import rules
+from forgetting.cli.tables import leave_quietly, say
 from forgetting.words.errors import RecordError
 
 BAD = 2
@@ -38,7 +38,7 @@ app.command()(reproduce)
 def show_version(wanted: bool) -> None:
     """Print the version and stop."""
     if wanted:
-        print(f"forgetting {fg.__version__}")
+        say(f"forgetting {fg.__version__}")
         raise typer.Exit
 
 
@@ -58,6 +58,7 @@ def run(arguments: list[str]) -> int:
         return BAD
     try:
         code = app(args=arguments, standalone_mode=False, prog_name="forgetting")
+        sys.stdout.flush()
     except (RecordError, fg.InvalidInput) as error:
         return complain(str(error))
     except fg.NumericalRange as error:
@@ -65,15 +66,15 @@ def run(arguments: list[str]) -> int:
     except MemoryError:
         return complain("the record does not fit into memory")
     except BrokenPipeError:
-        # The reader (such as `head`) has what it wanted; stdout must not be flushed again at exit.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        # The reader (such as `head`) has what it wanted.
+        leave_quietly()
         return 0
     except OSError as error:
         return complain(f"{error.filename}: {error.strerror}" if error.filename else str(error))
     except KeyboardInterrupt:
         return complain("stopped")
     except ImportError as error:
-        return complain(f"{error.name} is missing; install it with pip install 'forgetting[cli]'")
+        return complain(advice(error))
     except Exception as error:
         # Usage errors of the option parser; its classes moved between versions of typer.
         if hasattr(error, "format_message"):
@@ -82,6 +83,14 @@ def run(arguments: list[str]) -> int:
             return complain("stopped")
         raise
     return code if isinstance(code, int) else 0
+
+
+def advice(error: ImportError) -> str:
+    """Which extra brings what is missing; `forgetting.extras` says it already."""
+    words = str(error)
+    if "pip install" in words:
+        return words
+    return f"{error.name} is missing; install it with pip install 'forgetting[cli]'"
 
 
 def complain(message: str) -> int:

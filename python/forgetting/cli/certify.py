@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -10,6 +11,11 @@ import forgetting as fg
 from forgetting.cli import options
 from forgetting.cli.identify import parse_covariance, parse_orders
 from forgetting.cli.rulebook import make_gate, make_rule
+from forgetting.cli.source import read_record, show_record
+from forgetting.cli.tables import say
+
+if TYPE_CHECKING:
+    from forgetting.record.samples import Samples
 
 OUTPUTS = ["error", "forgetting_factor", "skipped", "covariance", "prior_covariance"]
 
@@ -21,6 +27,11 @@ def certify(
     input: options.Inputs = None,
     arx: options.Orders = None,
     time: options.Time = None,
+    gap: options.Gap = None,
+    missing: options.Missing = None,
+    part: options.Part = None,
+    encoding: options.Encoding = None,
+    show: options.Show = False,
     rule: options.RuleName = "subspace",
     forgetting_factor: options.ForgettingFactor = None,
     threshold: options.Threshold = None,
@@ -35,11 +46,13 @@ def certify(
     """
     from forgetting import analysis
     from forgetting.record.identify import build, listed
-    from forgetting.record.read import read
 
+    source = read_record(record, time, gap, missing, part, encoding)
+    if show:
+        show_record(source)
+        return 0
     made = make_rule(rule, forgetting_factor, threshold, settings or [])
     orders = None if arx is None else parse_orders(arx)
-    source = read(record, time)
     samples = build(source, formula, listed(output or ()), listed(input or ()), orders)
     est = fg.RLS(
         samples.phi.shape[1],
@@ -56,5 +69,10 @@ def certify(
         rule=made,
         names=list(samples.regressors),
     )
-    print(json.dumps(found.to_dict(), indent=2) if as_json else str(found))
+    say(in_json(found, samples) if as_json else f"{samples.clock_in_words()}\n{found}")
     return 1 if found.windup_occurred else 0
+
+
+def in_json(found: Any, samples: Samples) -> str:
+    """The certificate and the clock as JSON."""
+    return json.dumps(found.to_dict() | {"clock": samples.clock_as_data()}, indent=2)

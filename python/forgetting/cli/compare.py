@@ -13,6 +13,7 @@ from forgetting.cli import options
 from forgetting.cli.identify import check_targets, parse_covariance, parse_orders
 from forgetting.cli.progress import progress_bar
 from forgetting.cli.rulebook import about, make_rule
+from forgetting.cli.source import read_record, show_record
 from forgetting.cli.tables import console, print_written, table
 from forgetting.words.errors import RecordError
 from forgetting.words.rounding import brief
@@ -35,6 +36,11 @@ def compare(
     input: options.Inputs = None,
     arx: options.Orders = None,
     time: options.Time = None,
+    gap: options.Gap = None,
+    missing: options.Missing = None,
+    part: options.Part = None,
+    encoding: options.Encoding = None,
+    show: options.Show = False,
     rules: Annotated[
         str, typer.Option("--rules", help="all, or registry names with commas.")
     ] = "all",
@@ -48,14 +54,16 @@ def compare(
     """
     from forgetting.record.identify import identify
 
-    check_targets(report, None, None)
+    check_targets(record, report, None, None)
+    source = read_record(record, time, gap, missing, part, encoding)
+    if show:
+        return show_record(source)
     model: dict[str, Any] = {
         "formula": formula,
         "output": output or (),
         "input": input or (),
         "arx": None if arx is None else parse_orders(arx),
         "initial_covariance": parse_covariance(initial_covariance),
-        "time": time,
     }
     found: list[tuple[str, Identification]] = []
     refused: list[str] = []
@@ -63,11 +71,11 @@ def compare(
         try:
             rule = make_rule(name, factor_for(name, forgetting_factor), None, [])
             with progress_bar(f"{name} on {record.name}") as progress:
-                found.append((name, identify(record, rule=rule, progress=progress, **model)))
+                found.append((name, identify(source, rule=rule, progress=progress, **model)))
         except fg.NumericalRange as error:
             refused.append(f"{name}: {error}")
     found.sort(key=lambda each: error_of(each[1]))
-    show([row(name, each) for name, each in found], refused)
+    print_ranking([row(name, each) for name, each in found], refused)
     if report is not None:
         save(found, refused, report)
         print_written([report])
@@ -102,7 +110,7 @@ def row(name: str, found: Identification) -> tuple[str, ...]:
     return (name, brief(error_of(found)), str(left_out), f"{largest:.3g}", ratio)
 
 
-def show(rows: list[tuple[str, ...]], refused: list[str]) -> None:
+def print_ranking(rows: list[tuple[str, ...]], refused: list[str]) -> None:
     """Print the ranking, and which rules did not get through the record."""
     out = console()
     out.print(table("Rules by one-step error", HEADER, rows))
@@ -119,6 +127,7 @@ def save(found: list[tuple[str, Identification]], refused: list[str], path: Path
         Page(
             title="Forgetting rules side by side",
             subtitle="" if best is None else f"{best.samples.source} · {best.samples.model}",
+            facts=() if best is None else best.samples.facts(),
             verdicts=[f"Refused: {sentence}" for sentence in refused],
             figures=[
                 Figure(f"{place}. {name}", brief(error_of(each)), repr(each.rule))

@@ -11,7 +11,9 @@ import numpy as np
 from forgetting.cli import options
 from forgetting.cli.progress import progress_bar
 from forgetting.cli.rulebook import make_gate, make_rule
-from forgetting.cli.tables import print_identification, print_written
+from forgetting.cli.source import read_record, show_record
+from forgetting.cli.tables import print_identification, print_written, say
+from forgetting.files import check_outputs
 from forgetting.words.errors import RecordError
 
 if TYPE_CHECKING:
@@ -25,6 +27,11 @@ def identify(
     input: options.Inputs = None,
     arx: options.Orders = None,
     time: options.Time = None,
+    gap: options.Gap = None,
+    missing: options.Missing = None,
+    part: options.Part = None,
+    encoding: options.Encoding = None,
+    show: options.Show = False,
     rule: options.RuleName = "subspace",
     forgetting_factor: options.ForgettingFactor = None,
     threshold: options.Threshold = None,
@@ -45,13 +52,16 @@ def identify(
     """
     from forgetting.record.identify import identify as identify_record
 
-    check_targets(report, estimates, plot)
+    check_targets(record, report, estimates, plot)
     if dtype not in ("float64", "float32"):
         raise RecordError(f"--dtype is {dtype!r}; it must be float64 or float32")
+    source = read_record(record, time, gap, missing, part, encoding)
+    if show:
+        return show_record(source)
     chosen, before = make_rule(rule, forgetting_factor, threshold, settings or []), make_gate(gate)
     with progress_bar(f"identifying {record.name}") as progress:
         found = identify_record(
-            record,
+            source,
             formula=formula,
             output=output or (),
             input=input or (),
@@ -60,17 +70,16 @@ def identify(
             gate=before,
             initial_covariance=parse_covariance(initial_covariance),
             dtype=dtype,
-            time=time,
             progress=progress,
         )
-    show(found, write(found, report, estimates, plot), as_json)
+    print_result(found, write(found, report, estimates, plot), as_json)
 
 
-def show(found: Identification, written: list[Path], as_json: bool) -> None:
+def print_result(found: Identification, written: list[Path], as_json: bool) -> None:
     """Print the result for a person or for a program."""
     if as_json:
         result = found.summary() | {"written": [str(path) for path in written]}
-        print(json.dumps(result, indent=2, ensure_ascii=False))
+        say(json.dumps(result, indent=2, ensure_ascii=False))
         return
     print_identification(found)
     print_written(written)
@@ -93,8 +102,10 @@ def write(
     return [path for path in (report, estimates, plot) if path is not None]
 
 
-def check_targets(report: Path | None, estimates: Path | None, plot: Path | None) -> None:
-    """Refuse a file that cannot be written before the work, not after it."""
+def check_targets(
+    record: Path, report: Path | None, estimates: Path | None, plot: Path | None
+) -> None:
+    """Refuse a file that cannot be written, or must not be, before the work and not after it."""
     for option, path, suffixes in (
         ("--report", report, (".html", ".htm")),
         ("--estimates", estimates, (".parquet", ".csv")),
@@ -104,8 +115,8 @@ def check_targets(report: Path | None, estimates: Path | None, plot: Path | None
             continue
         if path.suffix.lower() not in suffixes:
             raise RecordError(f"{option} writes {', '.join(suffixes)}, but got {path.name!r}")
-        if not path.resolve().parent.is_dir():
-            raise RecordError(f"{option} {path}: there is no folder {path.parent}")
+    outputs = {"--report": report, "--estimates": estimates, "--plot": plot}
+    check_outputs(outputs, None if str(record) == "-" else record)
 
 
 def parse_orders(text: str) -> list[int]:

@@ -7,7 +7,8 @@ from typing import Annotated, Any
 
 import typer
 
-MODEL, RULE, FILES = "Model", "Forgetting", "What to write"
+MODEL, READING, RULE = "Model", "Reading the record", "Forgetting"
+FILES = "What to write"
 
 
 def option(panel: str, text: str, *names: str, **more: Any) -> Any:
@@ -15,7 +16,13 @@ def option(panel: str, text: str, *names: str, **more: Any) -> Any:
     return typer.Option(*names, rich_help_panel=panel, help=text, **more)
 
 
-RecordFile = Annotated[Path, typer.Argument(help="Measured record: .csv, .tsv, .txt or .parquet.")]
+RecordFile = Annotated[
+    Path,
+    typer.Argument(
+        help="Measured record: text with any separator, Parquet (a folder, too), Arrow, Excel, "
+        "MAT, JSON lines, TDMS, MDF, ULog; packed or not; - is standard input."
+    ),
+]
 Formula = Annotated[
     str | None,
     option(
@@ -44,8 +51,46 @@ Orders = Annotated[
 ]
 Time = Annotated[
     str | None,
-    option(MODEL, "Time column, when it is not found by itself.", "--time", metavar="COLUMN"),
+    option(
+        READING,
+        "Time column, when it is not found by itself; DATE,TIME for two; none for no clock.",
+        "--time",
+        metavar="COLUMN",
+    ),
 ]
+Gap = Annotated[
+    str | None,
+    option(
+        READING,
+        "Longest step in time across which lags reach, such as 5min, or none for any; "
+        "1.5 median steps when absent.",
+        "--gap",
+        metavar="DURATION",
+    ),
+]
+Missing = Annotated[
+    list[str] | None,
+    option(
+        READING,
+        "A word or number that stands for a missing value, such as -200; repeat for several.",
+        "--missing",
+        metavar="WORD",
+    ),
+]
+Part = Annotated[
+    str | None,
+    option(
+        READING,
+        "Sheet, group, topic, structure, or file of an archive.",
+        "--part",
+        metavar="NAME",
+    ),
+]
+Encoding = Annotated[
+    str | None,
+    option(READING, "Encoding of text, such as cp1250 or shift_jis.", "--encoding"),
+]
+Show = Annotated[bool, option(READING, "Only say how the record is read.", "--show")]
 RuleName = Annotated[
     str, option(RULE, "Forgetting rule; 'forgetting rules' lists them.", "--rule", "-r")
 ]

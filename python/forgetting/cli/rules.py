@@ -11,7 +11,7 @@ from rich.table import Table
 
 import forgetting as fg
 from forgetting.cli.rulebook import about
-from forgetting.cli.tables import console
+from forgetting.cli.tables import console, say
 
 GUARANTEES = (
     ("proper", "proper"),
@@ -28,7 +28,7 @@ def rules(
 ) -> None:
     """List the forgetting rules, or explain one: its equations, parameters and guarantees."""
     if name is not None:
-        print(about(name)["header"].strip())
+        say(about(name)["header"].strip())
         return
     out = console()
     for entry in fg.rules():

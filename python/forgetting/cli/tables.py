@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -17,9 +19,30 @@ if TYPE_CHECKING:
     from forgetting.record import Identification
 
 
+class Quiet(Console):
+    """A console whose reader may leave: what is left is not printed, and the work goes on."""
+
+    def on_broken_pipe(self) -> None:
+        """Print nowhere from now on."""
+        leave_quietly()
+
+
 def console() -> Console:
     """A console on today's stdout (tests and pipes replace it)."""
-    return Console(highlight=False, soft_wrap=True)
+    return Quiet(highlight=False, soft_wrap=True)
+
+
+def say(text: str) -> None:
+    """Print a text; a reader that has left (such as `head`) is no error."""
+    try:
+        print(text, flush=True)
+    except BrokenPipeError:
+        leave_quietly()
+
+
+def leave_quietly() -> None:
+    """Send what is still to be printed nowhere, so that the flush at exit finds no closed pipe."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def table(title: str, header: Sequence[str], rows: Sequence[Sequence[str]]) -> Table:
@@ -39,6 +62,8 @@ def print_identification(found: Identification) -> None:
     out = console()
     samples = found.samples
     out.print(f"[bold]{escape(samples.source)}[/]  {escape(samples.model)}")
+    for word, text in samples.facts()[1:]:
+        out.print(escape(text if word == "clock" else f"{word} {text}"))
     out.print(f"rule {escape(repr(found.rule))}\n")
     out.print(parameters(found))
     out.print(scores(found))

@@ -8,6 +8,7 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from forgetting.files import whole
 from forgetting.plot.bars import shade
 from forgetting.plot.style import BLUE, FAINT, VERMILLION, legend_above, styled
 from forgetting.plot.timeline import label_time, timeline
@@ -69,5 +70,6 @@ def save_windup(
     """Write the picture as PNG."""
     with styled():
         figure = windup(exponential, subspace, rows)
-        figure.savefig(path, dpi=160, facecolor="white")
+        with whole(path) as made:
+            figure.savefig(made, dpi=160, facecolor="white")
         plt.close(figure)

@@ -5,14 +5,18 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from forgetting._core import InvalidInput, numbers
+from forgetting._core import InvalidInput
 
 Array = NDArray[np.float64]
 
 
 def channels(name: str, values: ArrayLike) -> Array:
-    """Return (T,) or (T, c) as (T, c) float64; NaN means missing, Inf is refused."""
-    array = numbers(name, values)
+    """Return (T,) or (T, c) as (T, c) float64; NaN and a mask mean missing, Inf is refused."""
+    refuse_kind(name, values)
+    try:
+        array = np.array(np.ma.filled(np.ma.asarray(values, dtype=np.float64), np.nan))
+    except (TypeError, ValueError) as error:
+        raise InvalidInput(f"{name} must hold numbers: {error}") from None
     if array.ndim == 1:
         array = array[:, None]
     if array.ndim != 2:
@@ -21,6 +25,15 @@ def channels(name: str, values: ArrayLike) -> Array:
         row = int(np.argwhere(np.isinf(array))[0][0])
         raise InvalidInput(f"{name} is infinite in row {row}; it must be finite, or NaN")
     return array
+
+
+def refuse_kind(name: str, values: ArrayLike) -> None:
+    """Refuse what NumPy would turn into real numbers by dropping or inventing a part of it."""
+    kind = getattr(values, "dtype", None)
+    kind = np.asarray(values).dtype if not isinstance(kind, np.dtype) else kind
+    what = {"c": "complex numbers", "M": "date-times", "m": "durations"}.get(kind.kind)
+    if what is not None:
+        raise InvalidInput(f"{name} holds {what} ({kind}); it must hold real numbers")
 
 
 def paired(u: ArrayLike | None, y: ArrayLike) -> tuple[Array, Array]:

@@ -11,6 +11,7 @@ from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 import forgetting as fg
+from forgetting.files import write_text
 from forgetting.report.svg import themed
 
 from .catalogue import PAPERS
@@ -66,7 +67,7 @@ def write_page(
     environment = Environment(loader=loader, autoescape=True, undefined=StrictUndefined)
     page = environment.get_template("report.html.j2")
     html = page.render(parts=parts, summary=summary(claims), version=fg.__version__)
-    path.write_text(html, encoding="utf-8")
+    write_text(path, html)
 
 
 def embedded(each: Picture, folder: Path) -> Markup:

@@ -14,6 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
+from forgetting.files import whole
 from forgetting.plot.style import BLUE, FAINT, VERMILLION, styled
 
 from .claim import SEEDS
@@ -73,9 +74,9 @@ def save(each: Picture, folder: Path, seeds: int = SEEDS) -> list[Path]:
         figure = each(seeds)
         paths = [folder / f"{each.name}.{suffix}" for suffix in ("png", "svg")]
         for path in paths:
-            figure.savefig(
-                path, dpi=200, metadata={"Date": None} if path.suffix == ".svg" else None
-            )
+            metadata = {"Date": None} if path.suffix == ".svg" else None
+            with whole(path) as made:
+                figure.savefig(made, dpi=200, metadata=metadata)
         plt.close(figure)
     return paths
 

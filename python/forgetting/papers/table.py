@@ -9,6 +9,8 @@ from dataclasses import astuple, fields
 from pathlib import Path
 from typing import get_args
 
+from forgetting.files import whole
+
 from .claim import Claim, Verdict
 
 
@@ -22,7 +24,7 @@ def summary(claims: Sequence[Claim]) -> str:
 
 def write_csv(claims: Sequence[Claim], path: Path) -> None:
     """One row a claim, one column a field."""
-    with path.open("w", newline="", encoding="utf-8") as stream:
+    with whole(path) as made, made.open("w", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream)
         writer.writerow([field.name for field in fields(Claim)])
         writer.writerows(astuple(claim) for claim in claims)

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from forgetting.analysis import Excited
-from forgetting.plot.style import BLUE, GREEN, VERMILLION, labelled
+from forgetting.plot.style import BLUE, GREEN, VERMILLION, labelled, literal
 
 BINS = 1200
 """Bins of a long record, at most about as many."""
@@ -60,7 +60,7 @@ def bars(
         at, held = binned(np.arange(len(where)) if x is None else x, where)
         colour = VERMILLION if colours is None else colours[label]
         ax.fill_between(at, place - 0.32, place + 0.32, where=held, step="post", color=colour, lw=0)
-    ax.set_yticks(range(len(rows)), labels=list(rows))
+    ax.set_yticks(range(len(rows)), labels=list(map(literal, rows)))
     ax.set_ylim(len(rows) - 0.45, -0.55)
     ax.grid(visible=False, axis="y")
     return ax

@@ -7,10 +7,11 @@ from pathlib import Path
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
+from forgetting.files import check_outputs, whole
 from forgetting.plot.covariance import eigenvalues, forgetting_factor
 from forgetting.plot.parameters import parameter
 from forgetting.plot.signals import error, prediction
-from forgetting.plot.style import styled
+from forgetting.plot.style import literal, styled
 from forgetting.record.identification import Identification
 from forgetting.words.errors import RecordError
 
@@ -42,7 +43,7 @@ def overview(found: Identification, output: int = 0) -> Figure:
             ax.set_xlabel("")
         figure.align_ylabels()
         figure.suptitle(
-            f"{found.samples.source}: {found.samples.model}\n{found.rule!r}",
+            literal(f"{found.samples.source}: {found.samples.model}\n{found.rule!r}"),
             x=0.01,
             ha="left",
             fontsize=11.5,
@@ -55,6 +56,8 @@ def save_overview(found: Identification, path: str | Path) -> None:
     path = Path(path)
     if path.suffix.lower() not in FORMATS:
         raise RecordError(f"a plot goes to {', '.join(FORMATS)}, but the file is {path.name!r}")
+    check_outputs({"plot": path}, found.samples.found.path)
     figure = overview(found)
-    figure.savefig(path, dpi=150)
+    with styled(), whole(path) as made:
+        figure.savefig(made, dpi=150)
     plt.close(figure)

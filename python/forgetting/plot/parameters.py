@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from forgetting.plot import thinning
-from forgetting.plot.style import BLUE, axes_or_new
+from forgetting.plot.style import BLUE, axes_or_new, literal
 from forgetting.plot.timeline import label_time, timeline
 from forgetting.record.identification import Identification
 
@@ -49,7 +49,7 @@ def parameter(
     if high > low:
         ax.set_ylim(low, high)
     prefix = f"{found.samples.outputs[output]}: " if len(found.samples.outputs) > 1 else ""
-    ax.set_title(prefix + found.samples.regressors[index])
+    ax.set_title(literal(prefix + found.samples.regressors[index]))
     label_time(ax, x, time_label)
     return ax
 

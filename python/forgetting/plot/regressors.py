@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 
 from forgetting.analysis import Content, Excitation, Spectrum
 from forgetting.plot.bars import shade
-from forgetting.plot.style import BLUE, FAINT, GREEN, ORANGE, PALETTE, labelled
+from forgetting.plot.style import BLUE, FAINT, GREEN, ORANGE, PALETTE, labelled, literal
 
 
 def excitation(found: Excitation, ax: Axes | None = None) -> Axes:
@@ -38,7 +38,8 @@ def content(
         return ax
     levels = np.log10(np.maximum(values, values.max() * 1e-12))
     image = ax.imshow(levels.T, aspect="auto", origin="lower", cmap="cividis", interpolation="none")
-    ax.set_yticks(range(values.shape[1]), labels=names)
+    labels = None if names is None else list(map(literal, names))
+    ax.set_yticks(range(values.shape[1]), labels=labels)
     ax.figure.colorbar(image, ax=ax, label="log10 of the content")
     return ax
 
@@ -47,7 +48,7 @@ def spectrum(found: Spectrum, ax: Axes | None = None, names: Sequence[str] | Non
     """Draw the power of each regressor over frequency."""
     ax = labelled(ax, "mean square", "cycles per sample")
     for index, power in enumerate(found.power.T):
-        label = f"regressor {index}" if names is None else names[index]
+        label = f"regressor {index}" if names is None else literal(names[index])
         colour = PALETTE[index % len(PALETTE)]
         ax.semilogy(found.frequencies, np.maximum(power, 1e-300), color=colour, label=label)
     top = float(found.power.max())

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from forgetting.plot import thinning
-from forgetting.plot.style import BLUE, FAINT, INK, VERMILLION, axes_or_new, legend_above
+from forgetting.plot.style import BLUE, FAINT, INK, VERMILLION, axes_or_new, legend_above, literal
 from forgetting.plot.timeline import label_time, timeline
 from forgetting.record.identification import Identification
 from forgetting.record.scores import started
@@ -46,7 +46,7 @@ def prediction(found: Identification, output: int = 0, ax: Axes | None = None) -
     )
     typical = percentiles(settled(found, found.prediction, output), (1, 99))
     limit_to(ax, np.concatenate([found.samples.y[:, output], typical]))
-    ax.set_ylabel(name)
+    ax.set_ylabel(literal(name))
     label_time(ax, x, label)
     legend_above(ax, 2)
     return ax
@@ -62,7 +62,7 @@ def error(found: Identification, output: int = 0, ax: Axes | None = None) -> Axe
     ax.plot(*thinning.line(x, found.trace.error[:, output]), color=VERMILLION, lw=0.9)
     typical = 1.15 * percentiles(np.abs(settled(found, found.trace.error, output)), (99.9,))
     limit_to(ax, np.concatenate([typical, -typical]))
-    ax.set_ylabel(f"error of {found.samples.outputs[output]}")
+    ax.set_ylabel(literal(f"error of {found.samples.outputs[output]}"))
     label_time(ax, x, label)
     legend_above(ax, 1)
     return ax

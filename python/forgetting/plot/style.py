@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from contextlib import AbstractContextManager
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import matplotlib as mpl
@@ -49,10 +51,30 @@ RC: dict[str, Any] = {
 }
 
 
-def styled() -> AbstractContextManager[None]:
-    """Use the look inside a ``with`` block; the user's own settings come back after it."""
+@contextmanager
+def styled() -> Iterator[None]:
+    """Use the look inside a ``with`` block; the user's own settings come back after it.
+
+    A letter that the font lacks is drawn as a box, without a warning a letter.
+    """
     settings: Any = RC
-    return mpl.rc_context(settings)
+    with mpl.rc_context(settings), warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message="Glyph .* missing from")
+        yield
+
+
+def literal(name: str) -> str:
+    """A name as Matplotlib must get it to show it letter by letter.
+
+    Between two dollar signs it would read mathematics, and a label that begins with an underscore
+    would be left out of a legend.
+
+    Examples
+    --------
+    >>> print(literal("cost in $ or US$"), literal("_x"), sep=",")
+    cost in \\$ or US\\$, _x
+    """
+    return (" " if name.startswith("_") else "") + name.replace("$", r"\$")
 
 
 def axes_or_new(ax: Axes | None) -> Axes:

@@ -23,7 +23,7 @@ def dynamics(
     Parameters
     ----------
     record : Record
-        The measured record. A missing cell, or a step of its clock longer than 1.5 median steps,
+        The measured record. A missing cell, or a gap of its clock (see `forgetting.record.read`),
         is a gap; samples whose lags cross it are NaN.
     outputs, inputs : sequence of str
         Column names; several outputs share one regressor.
@@ -37,10 +37,13 @@ def dynamics(
     y = columns(record, outputs)
     u = columns(record, inputs)
     phi = np.vstack([regressors(u[part], y[part], orders) for part in stretches(record)])
+    cut = int((np.isnan(phi) & ~np.isnan(regressors(u, y, orders))).any(axis=1).sum())
     model = f"ARX({orders.na},{orders.nb},{orders.nk}) of {', '.join(outputs)}"
     model += f" on {', '.join(inputs)}" if inputs else ""
     labels = tuple(names(outputs, inputs, orders))
-    return Samples(phi, y, labels, tuple(outputs), model, record.clock, record.name).check()
+    return Samples(
+        phi, y, labels, tuple(outputs), model, record.clock, record.name, cut, record.found
+    ).check()
 
 
 def checked_orders(arx: Sequence[int], inputs: Sequence[str]) -> Orders:

@@ -10,6 +10,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 import forgetting as fg
+from forgetting.files import whole
 from forgetting.record.samples import Samples
 from forgetting.record.trace import Trace
 from forgetting.words.errors import RecordError
@@ -54,11 +55,12 @@ def save(frame: pd.DataFrame, path: Path) -> None:
     """Write the table by suffix."""
     if path.suffix.lower() not in SUFFIXES:
         raise RecordError(f"estimates go to .parquet or .csv, but the file is {path.name!r}")
-    if path.suffix.lower() == ".csv":
-        frame.to_csv(path, index=False)
-        return
     try:
-        frame.to_parquet(path, index=False)
+        with whole(path) as made:
+            if path.suffix.lower() == ".csv":
+                frame.to_csv(made, index=False)
+            else:
+                frame.to_parquet(made, index=False)
     except ImportError:
         raise RecordError(
             "writing Parquet needs pyarrow; install it with pip install 'forgetting[cli]'"

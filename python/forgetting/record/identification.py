@@ -13,6 +13,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from forgetting.analysis import Excited, Guarantee, excited, guaranteed_bounds
+from forgetting.files import check_outputs
 from forgetting.record import estimates
 from forgetting.record.counts import Counts
 from forgetting.record.samples import Samples
@@ -122,6 +123,7 @@ class Identification(Counts):
 
     def save_estimates(self, path: str | Path) -> None:
         """Write `estimates` as Parquet or CSV, by suffix."""
+        check_outputs({"estimates": Path(path)}, self.samples.found.path)
         estimates.save(self.estimates(), Path(path))
 
     def summary(self) -> dict[str, Any]:
@@ -134,6 +136,8 @@ class Identification(Counts):
             "rule": repr(self.rule),
             "parameters": rows,
             "rmse": self.scores.by_output(self.samples.outputs),
+            "read_as": self.samples.found.to_dict(),
+            "clock": self.samples.clock_as_data(),
             "samples": self.counts() | {"scored": self.scores.samples},
             "covariance": {
                 "smallest_eigenvalue": float(ends[0]),

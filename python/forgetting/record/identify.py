@@ -12,6 +12,8 @@ from numpy.typing import ArrayLike
 import forgetting as fg
 from forgetting.record.dynamics import dynamics
 from forgetting.record.identification import Identification
+from forgetting.record.missing import Words
+from forgetting.record.names import clean
 from forgetting.record.read import Record, read
 from forgetting.record.samples import Samples
 from forgetting.record.scores import score
@@ -35,6 +37,8 @@ def identify(
     initial_covariance: ArrayLike = 100.0,
     dtype: str = "float64",
     time: str | None = None,
+    gap: str | float | None = None,
+    missing: str | float | Words = (),
     progress: Progress | None = None,
 ) -> Identification:
     """Identify a regression or an ARX model recursively over a whole record.
@@ -57,8 +61,8 @@ def identify(
         P before the first sample: scalar, (n,) diagonal or (n, n), in units of 1/regressor².
     dtype : str
         "float64" or "float32".
-    time : str, optional
-        Name of the time column, when it is not found by itself.
+    time, gap, missing
+        The clock, its gaps, and what stands for missing values; see `forgetting.record.read`.
     progress : callable, optional
         Called with (rows done, rows in all) while the estimator runs.
 
@@ -78,7 +82,7 @@ def identify(
     Notes
     -----
     A sample with a missing value in a regressor or output is skipped and counted. A lag that
-    crosses a missing cell, or a step in time longer than 1.5 median steps, is missing.
+    crosses a missing cell or a gap of the clock is missing. A model without lags needs no clock.
 
     Examples
     --------
@@ -90,7 +94,8 @@ def identify(
     >>> found.used, found.missing
     (200, 0)
     """
-    samples = build(read(record, time), formula, listed(output), listed(input), arx)
+    source = read(record, time, gap=gap, missing=missing)
+    samples = build(source, formula, listed(output), listed(input), arx)
     estimator = fg.RLS(
         samples.phi.shape[1],
         rule=rule,
@@ -134,5 +139,6 @@ def build(
 
 
 def listed(names: str | Sequence[str]) -> list[str]:
-    """One name or several, as a list."""
-    return [names] if isinstance(names, str) else list(names)
+    """One name or several, as a list; numbers name columns, too."""
+    several = isinstance(names, Sequence) and not isinstance(names, str)
+    return [clean(name) for name in (names if several else [names])]

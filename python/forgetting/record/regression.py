@@ -2,29 +2,26 @@
 
 from __future__ import annotations
 
-import builtins
 import re
 from typing import Any
 
 import numpy as np
 import pandas as pd
 from formulaic import Formula, ModelMatrices
-from formulaic.errors import FormulaicError
 from formulaic.formula import SimpleFormula
 from formulaic.parser.types import Factor
-from formulaic.transforms import TRANSFORMS
 from formulaic.utils.variables import Variable, get_required_variables
+from numpy.typing import NDArray
 
 from forgetting.record.columns import numbers, resolve
-from forgetting.record.files import first_line
+from forgetting.record.formula import FUNCTIONS, check_code
 from forgetting.record.read import Record
 from forgetting.record.samples import Samples
-from forgetting.words.errors import RecordError
+from forgetting.record.terms import check_size, check_terms, shortened
+from forgetting.words.errors import RecordError, first_line
 
 ANSI = re.compile(r"\x1b\[[0-9;]*m|[⧛⧚]")
 CATEGORICAL = re.compile(r"C\s*\(")
-FUNCTIONS = {"lag", *TRANSFORMS, *dir(builtins)}
-"""Names that a formula may use without a column of that name."""
 CALLED = {Variable.Role.CALLABLE}
 
 
@@ -38,7 +35,8 @@ def regression(record: Record, formula: str) -> Samples:
     """
     parsed = parse(formula)
     frame = checked_columns(record, parsed, formula)
-    matrices = evaluate(parsed, formula, frame, record)
+    lag = Lag(record)
+    matrices = evaluate(parsed, formula, frame, lag)
     phi, y = matrices.rhs, matrices.lhs
     if phi.shape[1] == 0:
         raise RecordError(f"the formula {formula!r} has no regressor on its right side")
@@ -50,6 +48,8 @@ def regression(record: Record, formula: str) -> Samples:
         formula,
         record.clock,
         record.name,
+        cut=int(lag.cut.sum()),
+        found=record.found,
     )
     refuse_infinite_outputs(samples)
     return samples.check()
@@ -57,13 +57,18 @@ def regression(record: Record, formula: str) -> Samples:
 
 def parse(formula: str) -> Any:
     """Parse a formula with two sides."""
+    check_size(formula)
+    check_terms(formula)
     try:
         parsed = Formula(formula)
-    except (FormulaicError, SyntaxError) as error:
-        raise RecordError(f"the formula {formula!r} cannot be read: {plain(error)}") from None
+    except Exception as error:
+        # The parser raises whatever a misplaced sign makes of itself.
+        raise RecordError(
+            f"the formula {shortened(formula)} cannot be read: {plain(error)}"
+        ) from None
     sides = [getattr(parsed, side, None) for side in ("lhs", "rhs")]
     if not all(isinstance(side, SimpleFormula) and list(side) for side in sides):
-        raise RecordError(f"the formula {formula!r} must read: output ~ regressors")
+        raise RecordError(f"the formula {shortened(formula)} must read: output ~ regressors")
     return parsed
 
 
@@ -71,10 +76,9 @@ def checked_columns(record: Record, parsed: Any, formula: str) -> pd.DataFrame:
     """Return the table; columns that the formula uses are numbers unless they are categories."""
     known = set(map(str, record.frame.columns))
     for factor in factors(parsed):
-        functions = {str(name) for name in variables(factor) if name.roles == CALLED}
-        for name in sorted(functions - FUNCTIONS - known):
-            if name.isidentifier():
-                raise RecordError(f"the formula {formula!r} calls {name!r}, an unknown function")
+        if factor.eval_method is Factor.EvalMethod.PYTHON:
+            for name in sorted(check_code(str(factor.expr), formula) - FUNCTIONS - known):
+                resolve(record.frame, name, record.name)
     used = set().union(*(columns(each, known) for each in factors(parsed)))
     # What stands only under a method of an expression, (x + z).clip(0), goes along as it was read;
     # what bears the name of a function must not hide it.
@@ -129,18 +133,35 @@ def categorical(parsed: Any, known: set[str]) -> set[str]:
     return inside - outside
 
 
-def evaluate(parsed: Any, formula: str, frame: pd.DataFrame, record: Record) -> ModelMatrices:
+class Lag:
+    """``lag(x, k)``: x, k rows ago, within a stretch between gaps of the clock."""
+
+    def __init__(self, record: Record) -> None:
+        self.segments = None if record.clock is None else record.clock.segments()
+        self.cut: NDArray[np.bool_] = np.zeros(len(record.frame), dtype=bool)
+        """Rows in which a value was there, but on the other side of a gap."""
+
+    def __call__(self, column: pd.Series, steps: int = 1) -> pd.Series:
+        """Shift, and note what was cut."""
+        column = pd.Series(column)
+        plain = column.shift(steps)
+        if self.segments is None:
+            return plain
+        within = column.groupby(self.segments).shift(steps)
+        self.cut |= (plain.notna() & within.isna()).to_numpy()
+        return within
+
+
+def evaluate(parsed: Any, formula: str, frame: pd.DataFrame, lag: Lag) -> ModelMatrices:
     """Evaluate the formula; `lag` is ours, because it must stop at gaps of the clock."""
-    segments = None if record.clock is None else record.clock.segments()
-
-    def lag(column: pd.Series, steps: int = 1) -> pd.Series:
-        return column.shift(steps) if segments is None else column.groupby(segments).shift(steps)
-
     try:
         with np.errstate(all="ignore"):
             return parsed.get_model_matrix(frame, na_action="ignore", context={"lag": lag})
-    except (FormulaicError, ValueError, TypeError, KeyError, IndexError, AttributeError) as error:
-        raise RecordError(f"the formula {formula!r} cannot be evaluated: {plain(error)}") from None
+    except Exception as error:
+        # Terms are the user's code: whatever they raise is a fault of the formula.
+        raise RecordError(
+            f"the formula {shortened(formula)} cannot be evaluated: {plain(error)}"
+        ) from None
 
 
 def values(phi: pd.DataFrame, frame: pd.DataFrame, parsed: Any) -> np.ndarray[Any, Any]:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from forgetting.record.clock import Clock
+from forgetting.record.found import Found
 from forgetting.words.errors import RecordError
 
 Array = NDArray[np.float64]
@@ -31,6 +33,10 @@ class Samples:
         Time of each row.
     source : str
         Name of the record.
+    cut : int
+        Rows in which a lag was there, but on the other side of a gap of the clock.
+    found : Found
+        How the record was read.
     """
 
     phi: Array
@@ -40,6 +46,8 @@ class Samples:
     model: str
     clock: Clock | None
     source: str
+    cut: int = 0
+    found: Found = field(default_factory=Found)
 
     @property
     def complete(self) -> NDArray[np.bool_]:
@@ -56,8 +64,37 @@ class Samples:
                 f"in row {row + 1} of {self.source}"
             )
         if not self.complete.any():
+            cut = f"; {self.clock_in_words()}; --time none ignores it" if self.cut else ""
             raise RecordError(
                 f"{self.source} has no complete sample: in each of its {len(self.y)} rows "
-                f"a value is missing or a lag reaches before the record or across a gap"
+                f"a value is missing or a lag reaches before the record or across a gap{cut}"
             )
         return self
+
+    def clock_as_data(self) -> dict[str, Any] | None:
+        """Which column is the clock, how it was read, its gaps, and the rows whose lags it cut."""
+        if self.clock is None:
+            return None
+        return {
+            "column": self.clock.name,
+            "kind": self.clock.kind,
+            "gaps": int(self.clock.is_gap.sum()),
+            "lags_cut": self.cut,
+        }
+
+    def facts(self) -> list[tuple[str, str]]:
+        """How the record was read, as pairs of a word and what it is."""
+        pairs = [("rows", str(len(self.y))), ("read as", self.found.words())]
+        pairs.append(("clock", self.clock_in_words()))
+        if self.found.units:
+            pairs.append(("units", self.found.names_with_units()))
+        if self.found.skipped:
+            pairs.append(("left out", "; ".join(self.found.skipped)))
+        return pairs
+
+    def clock_in_words(self) -> str:
+        """Which column is the clock, and what it did to the lags."""
+        if self.clock is None:
+            return "no clock; lags count rows"
+        rows = f"{self.cut} row{'s' * (self.cut != 1)}"
+        return f"clock {self.clock}; it cut the lags of {rows}"

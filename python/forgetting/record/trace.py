@@ -19,6 +19,10 @@ Progress = Callable[[int, int], None]
 
 CHUNKS = 1000
 """Pieces a record is run in; the eigenvalues of P are taken after each, so at most this often."""
+CHEAP = 2_000_000_000
+"""Cubes of parameters that all eigenvalues together may cost: a second or two."""
+FEWEST = 20
+"""Pieces however many parameters there are."""
 
 CODES = {reason: code for code, reason in fg.SKIPPED.items()}
 USED, DEAD_ZONE, MISSING = CODES[None], CODES["dead_zone"], CODES["missing"]
@@ -86,7 +90,7 @@ def run(estimator: Any, samples: Samples, progress: Progress | None = None) -> T
     pieces: list[Any] = []
     rows: list[int] = []
     eigenvalues: list[Array] = []
-    for start, stop in chunks(total):
+    for start, stop in chunks(total, phi.shape[1]):
         try:
             piece = estimator.run(phi[start:stop], y[start:stop], outputs=HISTORY, missing="skip")
         except (fg.InvalidInput, fg.NumericalRange) as error:
@@ -106,9 +110,16 @@ def in_rows(message: str, start: int) -> str:
     )
 
 
-def chunks(total: int) -> list[tuple[int, int]]:
-    """Cut `total` rows into at most CHUNKS pieces of equal length."""
-    length = max(1, math.ceil(total / CHUNKS))
+def chunks(total: int, parameters: int) -> list[tuple[int, int]]:
+    """Cut `total` rows into pieces of equal length, fewer where eigenvalues are dear.
+
+    Examples
+    --------
+    >>> len(chunks(2000, 4)), len(chunks(2000, 400))
+    (1000, 31)
+    """
+    most = min(CHUNKS, max(CHEAP // parameters**3, FEWEST))
+    length = max(1, math.ceil(total / most))
     return [(start, min(start + length, total)) for start in range(0, total, length)]
 
 

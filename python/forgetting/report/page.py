@@ -10,6 +10,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 import forgetting as fg
+from forgetting.files import write_text
 
 
 @dataclass(frozen=True)
@@ -53,10 +54,24 @@ class Figure:
 
 @dataclass(frozen=True)
 class Page:
-    """A whole report."""
+    """A whole report.
+
+    Attributes
+    ----------
+    title, subtitle : str
+    facts : sequence of pairs of str
+        A word and what it is, at the top: how the record was read.
+    verdicts : sequence of str
+        Sentences.
+    figures : sequence of Figure
+        Key numbers.
+    blocks : sequence of Block
+        The parts below.
+    """
 
     title: str
     subtitle: str = ""
+    facts: Sequence[tuple[str, str]] = ()
     verdicts: Sequence[str] = ()
     figures: Sequence[Figure] = ()
     blocks: Sequence[Block] = field(default_factory=tuple)
@@ -72,4 +87,4 @@ def write(page: Page, path: str | Path) -> None:
         lstrip_blocks=True,
     )
     html = environment.get_template("page.html.j2").render(page=page, version=fg.__version__)
-    Path(path).write_text(html, encoding="utf-8")
+    write_text(path, html)

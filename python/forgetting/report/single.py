@@ -8,6 +8,7 @@ from markupsafe import Markup
 from matplotlib import pyplot as plt
 
 from forgetting import plot
+from forgetting.files import check_outputs
 from forgetting.record.identification import Identification
 from forgetting.report.page import Block, Figure, Page, Table, write
 from forgetting.report.svg import inline
@@ -22,6 +23,7 @@ STACKED = 6
 
 def save(found: Identification, path: str | Path) -> None:
     """Write the report of an identification as one HTML file."""
+    check_outputs({"report": Path(path)}, found.samples.found.path)
     write(page(found), path)
 
 
@@ -35,6 +37,7 @@ def page(found: Identification) -> Page:
     return Page(
         title=found.samples.source,
         subtitle=f"{found.samples.model} · {found.rule!r}",
+        facts=found.samples.facts(),
         verdicts=found.verdicts,
         figures=figures(found),
         blocks=blocks,
@@ -148,8 +151,8 @@ def notes() -> Block:
         "variance is the mean over the used samples of e²/(1 + φPφᵀ), the first n samples left "
         "out. It describes parameters that drift as the rule assumes, is an upper bound when they "
         "do not drift, and does not cover a wrong model or errors correlated in time. A sample "
-        "with a missing value, or with a lag across a gap (a step in time above 1.5 median steps), "
-        "is skipped; a sample in the dead zone carries less information than the rule's threshold. "
+        "with a missing value, or with a lag across a gap of the clock, is skipped; a sample in "
+        "the dead zone carries less information than the rule's threshold. "
         "Excited: a direction about which the samples in the rule's memory inform at least 1 % as "
         "much as the record does on average. Windup: the variance of a direction grew to more than "
         "ten times what it was when data last informed about it, and none do now.",
