@@ -2,6 +2,7 @@
 //! `forgetting-runtime`, and does nothing else.
 
 mod arrays;
+mod bank;
 mod callable;
 mod choice;
 mod errors;
@@ -18,6 +19,8 @@ use pyo3::prelude::*;
 #[pymodule]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<rls::Rls>()?;
+    module.add_class::<bank::Bank>()?;
+    module.add_class::<bank::BankUpdate>()?;
     module.add_class::<fleet::Fleet>()?;
     module.add_class::<fleet::FleetUpdate>()?;
     module.add_class::<update::Update>()?;

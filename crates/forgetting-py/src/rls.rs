@@ -31,8 +31,11 @@ use pyo3::types::{PyBytes, PyDict, PyType};
 ///     Measurements a sample that share one theta.
 /// targets : int, default 1
 ///     Parameter vectors that share phi and one covariance.
-/// initial_covariance : float, (n,) or (n, n) array, default 100.0
-///     P before the first sample, positive definite, in units of 1/phi**2.
+/// initial_covariance : float, (n,) or (n, n) array, optional
+///     P before the first sample, positive definite, in units of 1/phi**2. If not given, each
+///     regressor is measured in units of its root mean square so far, and P is 1e5 in these: no
+///     prediction then depends on the units of phi or y, and what a rule, a rate or a gate is told
+///     (a threshold, a process noise, an information matrix) is in these units, too.
 /// initial_theta : (n,) or (n, targets) array, optional
 ///     Estimate before the first sample; 0 if not given.
 /// dtype : {"float64", "float32"}
@@ -135,6 +138,13 @@ impl Rls {
     #[getter]
     fn covariance<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         output(py, self.estimator.covariance())
+    }
+
+    /// The units (n,) in which regressors are measured, 1 for one that has always been 0; None where an
+    /// initial covariance was given.
+    #[getter]
+    fn units<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        self.estimator.units().map(|units| output(py, units)).transpose()
     }
 
     /// The factor of the covariance: U (n, n) unit upper triangular and D (n,) positive, with

@@ -3,7 +3,7 @@
 use crate::arrays::optional;
 use pyo3::prelude::*;
 
-/// Results of `RLS.run`, one entry a sample; an output that was not asked for is None.
+/// Results of `RLS.run` and `Bank.run`, one entry a sample; an output that was not asked for is None.
 ///
 /// Attributes
 /// ----------
@@ -32,6 +32,10 @@ use pyo3::prelude::*;
 ///     P after each sample.
 /// prior_covariance : ndarray (T, n, n)
 ///     P after forgetting and before the data of each sample.
+/// weights : ndarray (T, members)
+///     Of a bank: how far each member was believed in the prediction of the sample.
+/// memory : ndarray (T,)
+///     Of a bank: over how many samples it remembers, after the sample.
 /// samples, used, skipped_count : int
 ///     Number of samples in the record, used, and left out.
 #[pyclass(frozen, get_all, module = "forgetting")]
@@ -48,6 +52,8 @@ pub struct Run {
     variance: Option<Py<PyAny>>,
     covariance: Option<Py<PyAny>>,
     prior_covariance: Option<Py<PyAny>>,
+    weights: Option<Py<PyAny>>,
+    memory: Option<Py<PyAny>>,
     samples: usize,
     used: usize,
     skipped_count: usize,
@@ -70,6 +76,8 @@ impl Run {
             variance: take("variance")?,
             covariance: take("covariance")?,
             prior_covariance: take("prior_covariance")?,
+            weights: take("weights")?,
+            memory: take("memory")?,
             samples: run.samples,
             used: run.used,
             skipped_count: run.samples - run.used,

@@ -24,6 +24,7 @@
 //! ```
 #![forbid(unsafe_code)]
 
+mod bank;
 mod bounds;
 mod choice;
 mod configure;
@@ -37,6 +38,7 @@ mod shape;
 mod update;
 mod window;
 
+pub use bank::{Bank, BankSettings, BankUpdate, Member, BANK_OUTPUTS};
 pub use bounds::{covariance_bounds, CovarianceBounds};
 pub use choice::{Choice, Description, Value};
 pub use error::{check_shape, Error, Kind};

@@ -1,5 +1,6 @@
 //! What forgetting does to P on the way to a measurement of one row, where the two are one pass.
 
+use crate::number::lane::Lane;
 use crate::number::Real;
 
 /// A way to forget that is done together with the measurement.
@@ -17,13 +18,19 @@ pub enum Form<T> {
         /// regressors that are left out
         dead_zone: DeadZone<T>,
     },
-    /// P̄ = shrink·P + noise·I; of at most [`FEW`](super::layout::FEW) parameters
+    /// P̄ = (1 − noise/b)·P + noise·I; of at most [`FEW`](super::layout::FEW) parameters
     Walk {
-        /// at most 1; below that, noise is at least the floor of D
-        shrink: T,
-        /// what each variance grows by
+        /// what each variance grows by; with a bound it is at least the floor of D
         noise: T,
+        /// 1/b, below 1/noise: P stays at most b·I; 0 for no bound
+        per_bound: T,
     },
+}
+
+/// 1 − noise/b: what a walk multiplies P with.
+#[inline(always)]
+pub fn shrink<T: Real, A: Lane<T>>(noise: A, per_bound: A) -> A {
+    (-noise).mul_add(per_bound, A::splat(T::ONE))
 }
 
 /// Regressors that are too short to count as information.

@@ -8,7 +8,7 @@ use super::registers::floor::far_before;
 use super::registers::{Gain, InPlace, Small, Unit};
 use super::vectors::add_scaled_by;
 use crate::kernel::dispatch::Kernel;
-use crate::kernel::form::Form;
+use crate::kernel::form::{shrink, Form};
 use crate::kernel::measured::Measured;
 use crate::number::lane::One;
 use crate::number::vector::Vector;
@@ -94,8 +94,8 @@ fn few<T: Real, const N: usize>(
         Form::Along { weight, .. } => {
             along::<T, T, _, N, true>(&mut small, bounds, weight, (f, squares), least)?
         }
-        Form::Walk { shrink, noise } => {
-            walk::<T, T, _, N, true>(&mut small, bounds, (shrink, noise), (f, squares), least)?
+        Form::Walk { noise, per_bound } => {
+            walk::<T, T, _, N, true>(&mut small, bounds, (noise, per_bound), (f, squares), least)?
         }
     };
     *d = small.d;
@@ -153,10 +153,11 @@ pub fn along<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const NEAR: bool
 pub fn walk<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const NEAR: bool>(
     small: &mut Small<A, N, U>,
     bounds: &mut Bounds<'_, T>,
-    (shrink, noise): (T, T),
+    (noise, per_bound): (T, T),
     (f, squares): (&[A; N], T),
     least: T,
 ) -> Option<(Gain<A, N>, bool)> {
+    let shrink = shrink::<T, T>(noise, per_bound);
     let added = noise * T::from_f64(N as f64);
     bounds.grow::<NEAR>((shrink, added), (least * shrink, squares))?;
     small.walk(A::splat(shrink), A::splat(noise));

@@ -5,10 +5,11 @@ use crate::function::original;
 use crate::number::Number;
 use forgetting::choice;
 use forgetting::gates::Gate;
+use forgetting::mixers::{AnyMixer, Mixer};
 use forgetting::rates::Rate;
 use forgetting::rules::Forgetting;
 use forgetting::weightings::Weighting;
-use forgetting::AnyEstimator;
+use forgetting::{AnyEstimator, Dynamic};
 
 impl Description {
     /// What `estimator` is made of.
@@ -33,6 +34,13 @@ impl Description {
 }
 
 impl Choice {
+    /// What mixes the members of a bank.
+    pub(crate) fn mixer<T: Number>(mixer: &AnyMixer<Dynamic<T>>) -> Self {
+        Self::described::<T>(mixer.about().name, |each| {
+            mixer.describe(&mut |name, value| each(name, value));
+        })
+    }
+
     /// The choice of this name whose values `describe` names one by one.
     fn described<T: Number>(
         name: &str,

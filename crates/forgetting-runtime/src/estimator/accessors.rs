@@ -32,7 +32,7 @@ pub(crate) fn covariance<T: Number>(estimator: &AnyEstimator<T>) -> Array {
 }
 
 /// s of these 1/s.
-pub(super) fn units<T: Number>(reciprocals: &[T]) -> Array {
+pub(crate) fn units<T: Number>(reciprocals: &[T]) -> Array {
     T::array(reciprocals.iter().map(|&x| T::ONE / x).collect(), &[reciprocals.len()])
 }
 

@@ -2,9 +2,9 @@
 
 mod accessors;
 mod health;
-mod record;
+pub(crate) mod record;
 
-pub(crate) use accessors::covariance;
+pub(crate) use accessors::{covariance, units};
 pub use health::Health;
 pub use record::{Missing, Run};
 
@@ -15,7 +15,7 @@ use crate::number::{each, make, ByType, Family, Number};
 use crate::number::{Array, NumberType, View};
 use crate::settings::Settings;
 use crate::update::{update, Update};
-use accessors::{factor, predict, theta, units};
+use accessors::{factor, predict, theta};
 use forgetting::saved::number_type;
 use forgetting::{AnyEstimator, Memory, Real};
 

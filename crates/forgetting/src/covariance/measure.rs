@@ -3,7 +3,7 @@
 use super::Factor;
 use crate::error::Error;
 use crate::memory::Memory;
-use forgetting_kernels::kernel::form::Form;
+use forgetting_kernels::kernel::form::{shrink, Form};
 use forgetting_kernels::kernel::functions;
 use forgetting_kernels::kernel::measure::{Measure, Place};
 use forgetting_kernels::kernel::measured::Measured;
@@ -52,8 +52,8 @@ impl<M: Memory> Factor<M> {
                 let information = self.information_along(f, &mut scratch[..f.len()]);
                 (M::Real::ONE, weight / information * squares)
             }
-            Form::Walk { shrink, noise } => {
-                (shrink, noise * M::Real::from_f64(self.parameters() as f64))
+            Form::Walk { noise, per_bound } => {
+                (shrink(noise, per_bound), noise * M::Real::from_f64(self.parameters() as f64))
             }
         };
         let refused = self.reserve(growth, added);

@@ -36,7 +36,7 @@ use crate::rules::root::Root;
 use crate::error::Error;
 use crate::memory::Memory;
 use crate::choice::guarantee::positive;
-use forgetting_kernels::kernel::form::Form;
+use forgetting_kernels::kernel::form::{shrink, Form};
 use forgetting_kernels::kernel::functions::dot;
 use forgetting_kernels::kernel::layout::FEW;
 use forgetting_kernels::Real;
@@ -84,15 +84,18 @@ pub struct RandomWalk<M: Memory> {
     process_noise: Root<M>,
     trace: M::Real,
     bound: Option<M::Real>,
-    /// 1 − λ_max(Q)/b
-    shrink: M::Real,
+    /// λ_max(Q)
+    largest: M::Real,
+    /// 1/b; 0 without a bound
+    per_bound: M::Real,
 }
 
 impl<M: Memory> RandomWalk<M> {
     /// With steps of this covariance, P not bounded.
     pub fn new(process_noise: Root<M>) -> Self {
         let trace = process_noise.rows().fold(M::Real::ZERO, |sum, row| sum + dot(row, row));
-        Self { process_noise, trace, bound: None, shrink: M::Real::ONE }
+        let (_, largest) = process_noise.extremes();
+        Self { process_noise, trace, bound: None, largest, per_bound: M::Real::ZERO }
     }
 
     /// With steps of the covariance `process_noise`·I and P bounded by `bound`·I.
@@ -104,13 +107,12 @@ impl<M: Memory> RandomWalk<M> {
     }
 
     fn with_bound(self, bound: M::Real) -> Result<Self, Error> {
-        let (_, most) = self.process_noise.extremes();
         let bound = BOUND.check(bound)?;
-        if !(bound > most && bound <= M::Real::CEILING) {
+        if !(bound > self.largest && bound <= M::Real::CEILING) {
             let allowed = "above process_noise, within the number type's range";
             return Err(Error::value(BOUND.name, bound.to_f64(), allowed));
         }
-        Ok(Self { bound: Some(bound), shrink: M::Real::ONE - most / bound, ..self })
+        Ok(Self { bound: Some(bound), per_bound: M::Real::ONE / bound, ..self })
     }
 }
 
@@ -150,14 +152,14 @@ impl<M: Memory> Forgetting<M> for RandomWalk<M> {
         let noise = self.process_noise.scalar_given()?;
         let few = self.process_noise.parameters() <= FEW;
         let walks = noise >= M::Real::FLOOR || (noise > M::Real::ZERO && self.bound.is_none());
-        (few && walks).then_some(Form::Walk { shrink: self.shrink, noise })
+        (few && walks).then_some(Form::Walk { noise, per_bound: self.per_bound })
     }
 
     #[inline]
     fn forget(&self, (): &mut (), step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         step.factor.reserve(M::Real::ONE, self.trace)?;
-        if self.shrink < M::Real::ONE {
-            step.factor.shrink(self.shrink);
+        if self.bound.is_some() {
+            step.factor.shrink(shrink(self.largest, self.per_bound));
         }
         let direction = &mut step.work.first.as_mut()[..step.factor.parameters()];
         for row in self.process_noise.rows() {

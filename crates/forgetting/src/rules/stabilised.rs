@@ -117,9 +117,10 @@ impl<M: Memory> Forgetting<M> for Stabilised<M> {
     /// A walk, where P_∞ = c·I and parameters are few.
     #[inline]
     fn form(&self, forgetting_factor: M::Real) -> Option<Form<M::Real>> {
-        let noise = (M::Real::ONE - forgetting_factor) * self.covariance.scalar_given()?;
+        let limit = self.covariance.scalar_given()?;
+        let noise = (M::Real::ONE - forgetting_factor) * limit;
         let walks = noise >= M::Real::FLOOR && self.covariance.parameters() <= FEW;
-        walks.then_some(Form::Walk { shrink: forgetting_factor, noise })
+        walks.then_some(Form::Walk { noise, per_bound: M::Real::ONE / limit })
     }
 
     fn forget(&self, (): &mut (), step: Step<'_, '_, M>) -> Result<Forgotten, Error> {

@@ -3,6 +3,7 @@
 use super::{
     accepts, adds, make_room, report, Fate, Form, LaneOutcome, Line, Real, StreamVector, Trace,
 };
+use crate::kernel::form::shrink;
 use crate::kernel::lanes::storage::Layout;
 use crate::kernel::layout::FEW;
 use crate::kernel::registers::{Gain, Small, Unit};
@@ -113,8 +114,8 @@ pub fn advance<T: Real, A: StreamVector<T>, const N: usize>(
         Form::Scale { .. } => {
             scale::<T, A, N, false>(small, (strength, zero), f, (y, error, squares), accepted)
         }
-        Form::Walk { shrink, .. } => {
-            let walk = (A::splat(shrink), strength);
+        Form::Walk { per_bound, .. } => {
+            let walk = (shrink(strength, A::splat(per_bound)), strength);
             scale::<T, A, N, true>(small, walk, f, (y, error, squares), accepted)
         }
         Form::Along { dead_zone, .. } => {

@@ -7,7 +7,7 @@ use super::super::registers::{InPlace, Small, Unit};
 use super::super::vectors::few_products;
 use super::{accepts, Steps};
 use crate::kernel::dispatch::Kernel;
-use crate::kernel::form::Form;
+use crate::kernel::form::{shrink, Form};
 use crate::number::lane::One;
 use crate::number::vector::Vector;
 use crate::number::Real;
@@ -122,15 +122,17 @@ fn take<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const FORM: u8>(
                 Form::Along { weight, .. } if FORM == ALONG => {
                     along::<T, A, U, N, false>(small, &mut bounds, weight, sample, least)
                 }
-                Form::Walk { shrink, noise } if FORM == WALK => {
-                    walk::<T, A, U, N, false>(small, &mut bounds, (shrink, noise), sample, least)
+                Form::Walk { noise, per_bound } if FORM == WALK => {
+                    walk::<T, A, U, N, false>(small, &mut bounds, (noise, per_bound), sample, least)
                 }
                 _ => None,
             };
             let Some((gain, forgot)) = gain else { break };
             // D becomes no less than D / a
             least *= match *form {
-                Form::Walk { shrink, .. } if FORM == WALK => shrink * gain.inverse_a.get(),
+                Form::Walk { noise, per_bound } if FORM == WALK => {
+                    shrink::<T, T>(noise, per_bound) * gain.inverse_a.get()
+                }
                 _ => gain.inverse_a.get(),
             };
             let step = A::splat(error) * gain.inverse_a;

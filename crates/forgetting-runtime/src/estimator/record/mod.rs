@@ -10,9 +10,9 @@ pub use run::Run;
 use crate::error::Error;
 use crate::number::{Number, View};
 use forgetting::{AnyEstimator, Outcome};
-use noise::RecordNoise;
+pub(crate) use noise::RecordNoise;
 use outputs::Outputs;
-use shapes::Sizes;
+pub(crate) use shapes::Sizes;
 
 /// What is done with a sample that has a NaN.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -8,7 +8,7 @@ use forgetting::Noise;
 
 /// Γ of a record: the same for all samples, or one a sample.
 #[derive(Clone, Copy)]
-pub(super) enum RecordNoise<'a, T> {
+pub(crate) enum RecordNoise<'a, T> {
     Unit,
     Scalar(T),
     Full(&'a [T]),

@@ -7,7 +7,7 @@ use forgetting::Memory;
 
 /// Sizes of a record.
 #[derive(Clone, Copy)]
-pub(super) struct Sizes {
+pub(crate) struct Sizes {
     pub samples: usize,
     pub parameters: usize,
     pub rows: usize,

@@ -1,0 +1,395 @@
+//! The class `Bank`.
+
+use crate::arrays::{innovation, output, output_or_float, Input};
+use crate::choice::{read, read_forgetting_factor, write};
+use crate::errors::{invalid, raise};
+use crate::run::Run;
+use crate::settings::{names, read_choices, read_optional, view, write_description, Whole};
+use forgetting_runtime::{size, Bank as Inner, BankSettings, Choice, Member, Missing};
+use forgetting_runtime::{NumberType, Settings};
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict, PyType};
+
+/// Several estimators on the same samples, mixed by how well each has predicted.
+///
+/// Nothing need be chosen: the default members cover all speeds at which parameters may change, and
+/// the mixture predicts about as well as the best of them would have. Without an initial covariance no
+/// prediction depends on the units of phi or y.
+///
+/// Parameters
+/// ----------
+/// parameters : int
+///     Number n of parameters of each target.
+/// members : sequence of str or Rule, optional
+///     A rule each; random walks of eight speeds if not given.
+/// mixer : str or Mixer, default "mlpol"
+///     How members are weighed; see `forgetting.mixers()`.
+/// weighting, gate : optional
+///     As those of `RLS`, the same for all members; no function of yours.
+/// rows, targets : int, default 1
+///     As those of `RLS`.
+/// initial_covariance : float, (n,) or (n, n) array, optional
+///     P before the first sample of all members, in units of 1/phi**2. If not given, each
+///     regressor is measured in units of its root mean square so far, and P is 1e5 in these.
+/// initial_theta : (n,) or (n, targets) array, optional
+///     Estimate before the first sample, together with an initial covariance.
+/// dtype : {"float64", "float32"}
+///     Type of all numbers.
+///
+/// Raises
+/// ------
+/// InvalidInput
+///     Names the parameter, its value and what is allowed.
+///
+/// Examples
+/// --------
+/// >>> import forgetting as fg
+/// >>> bank = fg.Bank(2)
+/// >>> for k in range(100):
+/// ...     u = bank.update([1.0, k % 7], 3.0 + 0.5 * (k % 7))
+/// >>> bank.theta.round(4)
+/// array([3. , 0.5])
+#[pyclass(module = "forgetting")]
+pub struct Bank {
+    bank: Inner,
+}
+
+/// What one sample did: returned by `Bank.update`.
+///
+/// Attributes
+/// ----------
+/// error : float or ndarray
+///     y - phi @ theta with the theta of before, in units of y; (rows,) or (rows, targets).
+/// leverage : float
+///     Variance of the prediction in units of the noise variance, without what the members disagree
+///     about.
+/// forgetting_factor : float
+///     That of the members, mixed, in (0, 1].
+/// skipped : str or None
+///     Why the sample was left out, if all members left it out.
+/// windup : bool
+///     Whether the covariance of every member that is believed has wound up.
+/// asleep : int
+///     Members that could not take the sample.
+#[pyclass(frozen, module = "forgetting")]
+pub struct BankUpdate(forgetting_runtime::BankUpdate);
+
+#[pymethods]
+impl BankUpdate {
+    #[getter]
+    fn error<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        innovation(py, &self.0.error)
+    }
+
+    #[getter]
+    fn leverage(&self) -> f64 {
+        self.0.leverage
+    }
+
+    #[getter]
+    fn forgetting_factor(&self) -> f64 {
+        self.0.forgetting_factor
+    }
+
+    #[getter]
+    fn skipped(&self) -> Option<&'static str> {
+        self.0.skipped.map(|reason| reason.word())
+    }
+
+    #[getter]
+    fn windup(&self) -> bool {
+        self.0.windup
+    }
+
+    #[getter]
+    fn asleep(&self) -> usize {
+        self.0.asleep
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let (error, leverage) = (self.error(py)?.repr()?, self.0.leverage);
+        let skipped = self.skipped().map_or("None".into(), |reason| format!("{reason:?}"));
+        Ok(format!("BankUpdate(error={error}, leverage={leverage}, skipped={skipped})"))
+    }
+}
+
+#[pymethods]
+impl Bank {
+    #[new]
+    #[pyo3(signature = (parameters, members=None, *, mixer=None, weighting=None, gate=None,
+        rows=Whole(1), targets=Whole(1), initial_covariance=None, initial_theta=None,
+        dtype="float64"),
+        text_signature = "(parameters, members=None, *, mixer=None, weighting=None, gate=None, \
+        rows=1, targets=1, initial_covariance=None, initial_theta=None, dtype='float64')")]
+    #[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
+    fn new(
+        parameters: Whole,
+        members: Option<&Bound<'_, PyAny>>,
+        mixer: Option<&Bound<'_, PyAny>>,
+        weighting: Option<&Bound<'_, PyAny>>,
+        gate: Option<&Bound<'_, PyAny>>,
+        rows: Whole,
+        targets: Whole,
+        initial_covariance: Option<&Bound<'_, PyAny>>,
+        initial_theta: Option<&Bound<'_, PyAny>>,
+        dtype: &str,
+    ) -> PyResult<Self> {
+        let number_type = NumberType::named(dtype).map_err(raise)?;
+        let covariance = read_optional("initial_covariance", initial_covariance, number_type)?;
+        let theta = read_optional("initial_theta", initial_theta, number_type)?;
+        let common = Settings {
+            rows: size("rows", rows.0).map_err(raise)?,
+            targets: size("targets", targets.0).map_err(raise)?,
+            number_type,
+            initial_covariance: view("initial_covariance", &covariance)?,
+            initial_theta: view("initial_theta", &theta)?,
+            ..read_choices(parameters, None, weighting, gate)?
+        };
+        let members = members.map(read_members).transpose()?;
+        let settings = BankSettings { common, members, mixer: read("mixer", mixer)? };
+        Ok(Self { bank: Inner::new(&settings).map_err(raise)? })
+    }
+
+    /// Number n of parameters of each target.
+    #[getter]
+    fn parameters(&self) -> usize {
+        self.bank.parameters()
+    }
+
+    /// Measurements a sample that share one theta.
+    #[getter]
+    fn rows(&self) -> usize {
+        self.bank.rows()
+    }
+
+    /// Parameter vectors that share phi and one covariance.
+    #[getter]
+    fn targets(&self) -> usize {
+        self.bank.targets()
+    }
+
+    /// Name of the number type.
+    #[getter]
+    fn dtype(&self) -> &'static str {
+        self.bank.number_type().name()
+    }
+
+    /// Samples used since the start; skipped ones do not count.
+    #[getter]
+    fn samples(&self) -> u64 {
+        self.bank.samples()
+    }
+
+    /// The estimate of the mixture, (n,) or (n, targets).
+    #[getter]
+    fn theta<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        output(py, self.bank.theta())
+    }
+
+    /// The covariance P of the mixture, (n, n), in units of 1/phi**2, with what the members disagree
+    /// about: times the noise variance, it is that of the estimate.
+    #[getter]
+    fn covariance<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        output(py, self.bank.covariance())
+    }
+
+    /// How far each member is believed, (members,): not negative, their sum is 1.
+    #[getter]
+    fn weights<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        output(py, self.bank.weights())
+    }
+
+    /// Over how many samples the bank remembers: the number n of parameters over the mean leverage of
+    /// each member, mixed.
+    #[getter]
+    fn memory(&self) -> f64 {
+        self.bank.memory()
+    }
+
+    /// The noise variance, over up to the last thousand samples, in units of gamma.
+    #[getter]
+    fn noise_variance(&self) -> f64 {
+        self.bank.noise_variance()
+    }
+
+    /// The units (n,) in which regressors are measured, 1 for one that has always been 0; None where an
+    /// initial covariance was given.
+    #[getter]
+    fn units<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        self.bank.units().map(|units| output(py, units)).transpose()
+    }
+
+    /// The mixer and the members by name, each with its parameters.
+    fn describe<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let written = PyDict::new(py);
+        written.set_item("mixer", write(py, &self.bank.mixer())?)?;
+        let members = self.bank.members();
+        let members: PyResult<Vec<_>> =
+            members.iter().map(|member| write_description(py, member)).collect();
+        written.set_item("members", members?)?;
+        Ok(written)
+    }
+
+    /// The rules of the members, as objects that would make the same ones.
+    #[getter]
+    fn members<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        let choices = py.import("forgetting.choices")?;
+        let members = self.bank.members();
+        let rule = |member| {
+            let described = write_description(py, member)?;
+            choices.call_method1("rule_from_description", (described, self.dtype()))
+        };
+        members.iter().map(rule).collect()
+    }
+
+    /// phi @ theta.
+    ///
+    /// Parameters
+    /// ----------
+    /// phi : (n,) or (T, n) array
+    ///
+    /// Returns
+    /// -------
+    /// float, (targets,), (T,) or (T, targets)
+    fn predict<'py>(
+        &self,
+        py: Python<'py>,
+        phi: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let phi = self.input("phi", phi)?;
+        output_or_float(py, self.bank.predict(phi.view("phi")?).map_err(raise)?)
+    }
+
+    /// Take one sample.
+    ///
+    /// Parameters
+    /// ----------
+    /// phi : (n,) or (rows, n) array
+    /// y : float, (rows,), (targets,) or (rows, targets) array
+    /// gamma : float or (rows, rows) array, optional
+    ///     Noise covariance of the sample, positive definite; 1 if not given.
+    ///
+    /// Returns
+    /// -------
+    /// BankUpdate
+    ///
+    /// Raises
+    /// ------
+    /// InvalidInput
+    ///     For a wrong shape, NaN or Inf, or a gamma that is not positive definite.
+    /// NumericalRange
+    ///     When no member could take the sample. In either case nothing has changed.
+    #[pyo3(signature = (phi, y, gamma=None))]
+    fn update(
+        &mut self,
+        phi: &Bound<'_, PyAny>,
+        y: &Bound<'_, PyAny>,
+        gamma: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<BankUpdate> {
+        let (phi, y) = (self.input("phi", phi)?, self.input("y", y)?);
+        let gamma = gamma.map(|gamma| self.input("gamma", gamma)).transpose()?;
+        let (phi, y, gamma) = (phi.view("phi")?, y.view("y")?, view("gamma", &gamma)?);
+        self.bank.update(phi, y, gamma).map(BankUpdate).map_err(raise)
+    }
+
+    /// Take a whole record, without Python in the loop and without holding the interpreter.
+    ///
+    /// Parameters
+    /// ----------
+    /// phi : (T, n) or (T, rows, n) array
+    /// y : (T,), (T, rows), (T, targets) or (T, rows, targets) array
+    /// gamma : float, (rows, rows), (T,) or (T, rows, rows) array, optional
+    ///     Noise covariance, the same for all samples or one a sample.
+    /// outputs : sequence of str, optional
+    ///     What to keep: "theta", "error", "leverage", "forgetting_factor", "skipped", "windup",
+    ///     "variance", "covariance", "weights" or "memory".
+    /// missing : {"error", "skip"}
+    ///     What to do with a sample that has a NaN: refuse the record, or leave the sample out.
+    ///
+    /// Returns
+    /// -------
+    /// Run
+    ///
+    /// Raises
+    /// ------
+    /// InvalidInput, NumericalRange
+    ///     Names the sample and what is wrong with it; the bank is as it was before the record.
+    #[pyo3(signature = (phi, y, gamma=None, outputs=None, missing="error"))]
+    fn run(
+        &mut self,
+        py: Python<'_>,
+        phi: &Bound<'_, PyAny>,
+        y: &Bound<'_, PyAny>,
+        gamma: Option<&Bound<'_, PyAny>>,
+        outputs: Option<Vec<String>>,
+        missing: &str,
+    ) -> PyResult<Run> {
+        let missing = Missing::named(missing).map_err(raise)?;
+        let (phi, y) = (self.input("phi", phi)?, self.input("y", y)?);
+        let gamma = gamma.map(|gamma| self.input("gamma", gamma)).transpose()?;
+        let record = (phi.view("phi")?, y.view("y")?, view("gamma", &gamma)?);
+        let outputs = names(&outputs);
+        let run = py.detach(|| self.bank.run(record, missing, outputs.as_deref()));
+        Run::new(py, run.map_err(raise)?)
+    }
+
+    /// Back to the start, as if no sample had been seen.
+    fn reset(&mut self) {
+        self.bank.reset();
+    }
+
+    /// The bank, configuration and state, as bytes: portable, versioned and checked.
+    fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        Ok(PyBytes::new(py, &self.bank.to_bytes().map_err(raise)?))
+    }
+
+    /// The bank that `to_bytes` saved, bit for bit.
+    #[classmethod]
+    fn from_bytes(_: &Bound<'_, PyType>, state: &[u8]) -> PyResult<Self> {
+        Ok(Self { bank: Inner::from_bytes(state).map_err(raise)? })
+    }
+
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
+        let restore = slf.getattr("from_bytes")?;
+        Ok((restore, (slf.borrow().to_bytes(slf.py())?,)))
+    }
+
+    fn __copy__(&self) -> Self {
+        Self { bank: self.bank.clone() }
+    }
+
+    fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> Self {
+        self.__copy__()
+    }
+
+    fn __repr__(&self) -> String {
+        let (n, count) = (self.parameters(), self.bank.members().len());
+        let (mixer, samples) = (self.bank.mixer().name, self.samples());
+        format!("Bank({n}, {count} members, mixer={mixer:?}) after {samples} samples")
+    }
+}
+
+impl Bank {
+    fn input<'a, 'py>(
+        &self,
+        name: &str,
+        values: &'a Bound<'py, PyAny>,
+    ) -> PyResult<Input<'a, 'py>> {
+        Input::read(name, values, self.bank.number_type())
+    }
+}
+
+/// A rule for each member.
+fn read_members(members: &Bound<'_, PyAny>) -> PyResult<Vec<Member>> {
+    let list = members
+        .try_iter()
+        .map_err(|_| invalid(format!("members = {members:?}, allowed: a sequence of rules")))?;
+    let member = |rule: PyResult<Bound<'_, PyAny>>| {
+        let rule = rule?;
+        let choice = read("rule", Some(&rule))?.unwrap_or_else(|| Choice::named(""));
+        Ok(Member { rule: choice, forgetting_factor: read_forgetting_factor(Some(&rule))? })
+    };
+    list.map(member).collect()
+}
