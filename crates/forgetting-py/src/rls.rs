@@ -19,8 +19,9 @@ use pyo3::types::{PyBytes, PyDict, PyType};
 /// ----------
 /// parameters : int
 ///     Number n of parameters of each target.
-/// rule : str or Rule, default "subspace"
-///     Where to forget; see `forgetting.rules()`.
+/// rule : str or Rule, optional
+///     Where to forget; see `forgetting.rules()`. If not given, `RandomWalk(0.003, bound=1e5)`;
+///     `Subspace(0.99)` where an initial covariance is given.
 /// weighting : str or Weighting, optional
 ///     How far to trust a sample, by its innovation; see `forgetting.weightings()`.
 /// gate : str, Gate or callable, optional

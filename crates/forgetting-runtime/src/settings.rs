@@ -4,10 +4,13 @@ use crate::choice::Choice;
 use crate::error::Error;
 use crate::number::{NumberType, View};
 use forgetting::rules::RULES;
-use forgetting::Dynamic;
+use forgetting::{Dynamic, DIFFUSE};
 
-/// The rule when none is named.
+/// The rule when none is named and P₀ is given, in units of the user.
 const RULE: &str = "subspace";
+/// Process noise of the rule when neither it nor P₀ is given: parameters that are remembered over some
+/// twenty samples each. On open records it predicts best of what one setting can do for all of them.
+const PROCESS_NOISE: f64 = 3e-3;
 /// λ when none is given, of a rule that uses it.
 const FORGETTING_FACTOR: f64 = 0.99;
 /// The most threads that can be asked for.
@@ -66,7 +69,7 @@ pub struct Settings<'a> {
     pub targets: usize,
     /// the type of all numbers
     pub number_type: NumberType,
-    /// where to forget
+    /// where to forget; if not given, a random walk that is bounded, or `subspace` where P₀ is given
     pub rule: Option<Choice>,
     /// how much to forget
     pub forgetting_factor: ForgettingFactor,
@@ -104,7 +107,14 @@ impl Settings<'_> {
 
     /// The rule, named or not.
     pub(crate) fn rule(&self) -> Choice {
-        self.rule.clone().unwrap_or_else(|| Choice::named(RULE))
+        let walk = || {
+            Choice::named("random_walk").with("process_noise", PROCESS_NOISE).with("bound", DIFFUSE)
+        };
+        match (&self.rule, self.initial_covariance) {
+            (Some(rule), _) => rule.clone(),
+            (None, None) => walk(),
+            (None, Some(_)) => Choice::named(RULE),
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 mod signals;
 
 use forgetting_runtime::{
-    Array, Choice, CoreError, Elements, Error, Estimator, Kind, Missing, NumberType, Numbers, Run,
+    Array, Choice, CoreError, Elements, Error, Estimator, Kind, Missing, NumberType, Run,
     Settings, View,
 };
 use signals::numbers;

@@ -147,8 +147,7 @@ fn difference<T: Kernels>(rule: &str, n: usize, factor: f64, steps: usize) -> (f
         for (a, b) in stream.theta().iter().zip(single.theta()) {
             compare(*a, b.to_f64());
         }
-        let diagonals =
-            (stream.own_factor().diagonal_elements(), single.own_factor().diagonal_elements());
+        let diagonals = (stream.factor().diagonal_elements(), single.factor().diagonal_elements());
         for (a, b) in diagonals.0.iter().zip(diagonals.1) {
             compare(*a, b.to_f64());
         }
@@ -268,12 +267,8 @@ fn a_measurement_adds_nothing<T: Kernels>(n: usize) {
         fleet.update(Samples { phi: &phi, y: &y, mask: None }, told).unwrap();
         for (i, before) in before.iter().enumerate() {
             let (stream, most) = (fleet.get(i), before * (1.0 + 1e-3));
-            let trace = stream.own_factor().trace().to_f64();
-            assert!(
-                stream.is_sound(),
-                "n = {n}, stream {i}, step {step}: {:?}",
-                stream.own_factor()
-            );
+            let trace = stream.factor().trace().to_f64();
+            assert!(stream.is_sound(), "n = {n}, stream {i}, step {step}: {:?}", stream.factor());
             assert!(trace <= most, "n = {n}, stream {i}, step {step}: {trace:e} > {most:e}");
         }
     }
@@ -303,7 +298,7 @@ fn a_hundred_thousand_silent_samples_in_f32() {
             assert!(stream.is_sound(), "{rule}");
             // nothing was ever told of the other two: they are as they were, but for the rounding
             // of D at each sample (measured 0.0045)
-            for d in &stream.own_factor().diagonal_elements()[1..] {
+            for d in &stream.factor().diagonal_elements()[1..] {
                 assert!((d - 10.0).abs() < 0.02, "{rule}: {d}");
             }
             assert_eq!(stream.theta()[1..], [0.0, 0.0], "{rule}");

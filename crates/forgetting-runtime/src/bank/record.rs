@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::estimator::record::{Missing, RecordNoise, Run, Sizes};
 use crate::number::{Array, Elements, Number, View};
 use forgetting::bank::{Bank, BankUpdate};
-use forgetting::{Memory, Noise, Skip};
+use forgetting::{Answer, Memory, Noise, Skip};
 
 /// Names of the outputs that are kept when none are named.
 pub(super) const DEFAULT_OUTPUTS: [&str; 6] =
@@ -17,12 +17,13 @@ pub(super) const DEFAULT_OUTPUTS: [&str; 6] =
 /// |---|---|---|
 /// | `weights` | (T, K) | w of each member, with which the sample was predicted |
 /// | `memory` | (T,) | over how many samples the bank remembers, after the sample |
-pub const BANK_OUTPUTS: [&str; 10] = [
+pub const BANK_OUTPUTS: [&str; 11] = [
     "theta",
     "error",
     "leverage",
     "forgetting_factor",
     "skipped",
+    "gate",
     "windup",
     "variance",
     "covariance",
@@ -37,6 +38,7 @@ struct Outputs<T> {
     leverage: Option<Vec<T>>,
     forgetting_factor: Option<Vec<T>>,
     skipped: Option<Vec<u8>>,
+    gate: Option<Vec<u8>>,
     windup: Option<Vec<bool>>,
     variance: Option<Vec<T>>,
     covariance: Option<Vec<T>>,
@@ -90,6 +92,7 @@ impl<T: Number> Outputs<T> {
             leverage: room(names, "leverage", samples),
             forgetting_factor: room(names, "forgetting_factor", samples),
             skipped: room(names, "skipped", samples),
+            gate: room(names, "gate", samples),
             windup: room(names, "windup", samples),
             variance: room(names, "variance", samples * n),
             covariance: room(names, "covariance", samples * n * n),
@@ -130,6 +133,7 @@ impl<T: Number> Outputs<T> {
         push(&mut self.leverage, update.leverage);
         push(&mut self.forgetting_factor, update.forgetting_factor);
         push(&mut self.skipped, update.skipped.map_or(0, Skip::code));
+        push(&mut self.gate, update.gate.code());
         push(&mut self.windup, update.windup);
         self.used += usize::from(update.skipped.is_none());
     }
@@ -142,21 +146,21 @@ impl<T: Number> Outputs<T> {
         push(&mut self.leverage, nothing);
         push(&mut self.forgetting_factor, T::ONE);
         push(&mut self.skipped, Skip::Missing.code());
+        push(&mut self.gate, Answer::Update.code());
         push(&mut self.windup, false);
     }
 
     fn note_covariance(&mut self, bank: &Bank<T>) {
-        if self.variance.is_none() && self.covariance.is_none() {
-            return;
-        }
         let n = bank.memory().parameters();
-        let mut dense = vec![T::ZERO; n * n];
-        bank.covariance(&mut dense);
         if let Some(variance) = &mut self.variance {
-            variance.extend((0..n).map(|i| dense[i * n + i]));
+            let start = variance.len();
+            variance.resize(start + n, T::ZERO);
+            bank.variances(&mut variance[start..]);
         }
         if let Some(covariance) = &mut self.covariance {
-            covariance.extend_from_slice(&dense);
+            let start = covariance.len();
+            covariance.resize(start + n * n, T::ZERO);
+            bank.covariance(&mut covariance[start..]);
         }
     }
 
@@ -173,6 +177,7 @@ impl<T: Number> Outputs<T> {
             ("leverage", numbers(self.leverage), each.clone()),
             ("forgetting_factor", numbers(self.forgetting_factor), each.clone()),
             ("skipped", self.skipped.map(Elements::U8), each.clone()),
+            ("gate", self.gate.map(Elements::U8), each.clone()),
             ("windup", self.windup.map(Elements::Bool), each.clone()),
             ("variance", numbers(self.variance), vec![samples, n]),
             ("covariance", numbers(self.covariance), vec![samples, n, n]),

@@ -24,7 +24,7 @@ pub(super) fn by_parameter<T: Number>(estimator: &AnyEstimator<T>, numbers: &mut
 }
 
 pub(crate) fn covariance<T: Number>(estimator: &AnyEstimator<T>) -> Array {
-    let factor = estimator.factor();
+    let factor = estimator.express(estimator.factor());
     let n = factor.parameters();
     let mut dense = vec![T::ZERO; n * n];
     factor.reconstruct(&mut dense);
@@ -37,7 +37,7 @@ pub(crate) fn units<T: Number>(reciprocals: &[T]) -> Array {
 }
 
 pub(super) fn factor<T: Number>(estimator: &AnyEstimator<T>) -> (Array, Array) {
-    let factor = estimator.factor();
+    let factor = estimator.express(estimator.factor());
     let n = factor.parameters();
     let mut dense = vec![T::ZERO; n * n];
     for j in 0..n {

@@ -187,7 +187,7 @@ impl Estimator {
     #[must_use]
     pub fn extremes(&self) -> (f64, f64) {
         each!(&self.typed, e => {
-            let factor = e.own_factor();
+            let factor = e.factor();
             (factor.largest().to_f64(), factor.smallest().to_f64())
         })
     }

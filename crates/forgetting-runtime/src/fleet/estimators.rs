@@ -70,6 +70,6 @@ pub fn predict<T: Number>(
 pub fn extremes<T: Number>(streams: &[AnyEstimator<T>], largest: &mut [T], smallest: &mut [T]) {
     let places = largest.iter_mut().zip(smallest);
     for (stream, (largest, smallest)) in streams.iter().zip(places) {
-        (*largest, *smallest) = (stream.own_factor().largest(), stream.own_factor().smallest());
+        (*largest, *smallest) = (stream.factor().largest(), stream.factor().smallest());
     }
 }

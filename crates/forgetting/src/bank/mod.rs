@@ -22,7 +22,7 @@ use crate::error::Error;
 use crate::estimator::AnyEstimator;
 use crate::memory::{Aligned, Dynamic, Memory};
 use crate::mixers::{AnyMixer, AnyMixerState, Forecasts, Mixer};
-use crate::sample::{Noise, Skip};
+use crate::sample::{Answer, Noise, Skip};
 use crate::units::Units;
 use alloc::vec::Vec;
 use forgetting_kernels::Kernels;
@@ -99,6 +99,8 @@ pub struct BankUpdate<'a, T> {
     pub forgetting_factor: T,
     /// why the sample was left out, if all members left it out
     pub skipped: Option<Skip>,
+    /// what the gate of the member that is believed most said
+    pub gate: Answer,
     /// whether P of every member that is believed has wound up
     pub windup: bool,
     /// members that could not take the sample
@@ -197,7 +199,7 @@ impl<T: Kernels> Bank<T> {
     ) -> Result<BankUpdate<'_, T>, Error> {
         self.measure(phi)?;
         let taken = self.update_members(y, noise);
-        let Taken { forgetting_factor, skipped, windup, asleep } = match taken {
+        let Taken { forgetting_factor, skipped, gate, windup, asleep } = match taken {
             Ok(taken) => taken,
             Err(error) => {
                 if let Some(units) = &mut self.state.units {
@@ -211,7 +213,7 @@ impl<T: Kernels> Bank<T> {
         self.learn(skipped.is_none());
         self.follow();
         let error = &self.buffers.error;
-        Ok(BankUpdate { error, leverage, forgetting_factor, skipped, windup, asleep })
+        Ok(BankUpdate { error, leverage, forgetting_factor, skipped, gate, windup, asleep })
     }
 
     /// φ in the units of the members.
@@ -234,9 +236,14 @@ impl<T: Kernels> Bank<T> {
         let BankState { members, mixture, .. } = &mut self.state;
         let width = errors.len() / members.len();
         let mut refused = None;
-        let mut taken =
-            Taken { forgetting_factor: T::ZERO, skipped: None, windup: true, asleep: 0 };
-        let (mut left_out, mut believed) = (0, T::ZERO);
+        let mut taken = Taken {
+            forgetting_factor: T::ZERO,
+            skipped: None,
+            gate: Answer::Update,
+            windup: true,
+            asleep: 0,
+        };
+        let (mut left_out, mut believed, mut most) = (0, T::ZERO, T::ZERO);
         for (i, member) in members.iter_mut().enumerate() {
             let weight = mixture.weights()[i];
             match member.update_with_noise(phi.as_ref(), y, noise) {
@@ -247,6 +254,9 @@ impl<T: Kernels> Bank<T> {
                     taken.forgetting_factor += weight * update.forgetting_factor;
                     taken.windup &= update.windup || weight == T::ZERO;
                     taken.skipped = taken.skipped.or(update.skipped);
+                    if weight > most {
+                        (most, taken.gate) = (weight, update.gate);
+                    }
                     left_out += usize::from(update.skipped.is_some());
                     believed += weight;
                 }
@@ -313,7 +323,7 @@ impl<T: Kernels> Bank<T> {
             if let Some(ratios) = units.due() {
                 let largest = ratios.iter().fold(T::ONE, |largest, &r| largest.max(r));
                 let fits = |member: &AnyEstimator<T>| {
-                    let trace = member.own_factor().trace();
+                    let trace = member.factor().trace();
                     trace * largest * largest < T::CEILING
                 };
                 if members.iter().all(fits) {
@@ -339,6 +349,7 @@ impl<T: Kernels> Bank<T> {
 struct Taken<T> {
     forgetting_factor: T,
     skipped: Option<Skip>,
+    gate: Answer,
     windup: bool,
     asleep: usize,
 }

@@ -79,9 +79,32 @@ impl<T: Kernels> Bank<T> {
         }
     }
 
+    /// The diagonal of P of the mixture, n numbers. O(K n²).
+    pub fn variances(&self, variances: &mut [T]) {
+        let (n, m) = (self.memory.parameters(), self.memory.targets());
+        let mut own = alloc::vec![T::ZERO; n];
+        variances.fill(T::ZERO);
+        let per_target = self.noise_variance() * T::from_f64(m as f64);
+        let disagree = per_target > T::ZERO && self.state.members.len() > 1;
+        for (member, &weight) in self.state.members.iter().zip(self.weights()) {
+            if !(weight > T::ZERO) {
+                continue;
+            }
+            member.factor().variances(&mut own);
+            for (i, (sum, &p)) in variances.iter_mut().zip(&own).enumerate() {
+                let unit = self.reciprocal_units().map_or(T::ONE, |units| units[i]);
+                *sum += weight * p * unit * unit;
+                for t in (0..m).filter(|_| disagree) {
+                    let apart = member.theta()[t * n + i] * unit - self.theta()[t * n + i];
+                    *sum += weight / per_target * apart * apart;
+                }
+            }
+        }
+    }
+
     /// P of a member in the units of the user.
     fn member_factor(&self, i: usize) -> crate::covariance::Factor<Dynamic<T>> {
-        let mut factor = self.state.members[i].own_factor().clone();
+        let mut factor = self.state.members[i].factor().clone();
         if let Some(units) = &self.state.units {
             factor.express(units.reciprocals());
         }

@@ -58,9 +58,10 @@ where
             .keep_innovations(keep, self.recursion.design.prior.memory());
     }
 
-    /// P̄ of the last sample, after forgetting and before the data, if it is kept.
-    pub fn prior_factor(&self) -> Option<Factor<M>> {
-        self.recursion.buffers.diagnostics.prior().map(|factor| self.express(factor))
+    /// P̄ of the last sample, after forgetting and before the data, if it is kept: as the recursion has
+    /// it, see [`Estimator::factor`].
+    pub fn prior_factor(&self) -> Option<&Factor<M>> {
+        self.recursion.buffers.diagnostics.prior()
     }
 
     /// θ, m x n numbers, one target after the other.
@@ -72,15 +73,10 @@ where
         }
     }
 
-    /// P, factored. O(n²)
-    pub fn factor(&self) -> Factor<M> {
-        self.express(&self.recursion.state.factor)
-    }
-
-    /// P as the recursion keeps it: where P₀ follows the data, for regressors in units that the data
-    /// chose.
+    /// P, factored, as the recursion has it: where P₀ follows the data, for regressors in units that
+    /// the data chose; see [`Estimator::express`].
     #[inline]
-    pub fn own_factor(&self) -> &Factor<M> {
+    pub fn factor(&self) -> &Factor<M> {
         &self.recursion.state.factor
     }
 
@@ -89,8 +85,8 @@ where
         self.measured.as_ref().map(|measured| measured.units.reciprocals())
     }
 
-    /// P in the units of the user.
-    fn express(&self, factor: &Factor<M>) -> Factor<M> {
+    /// P as the recursion has it, in the units of the user. O(n²).
+    pub fn express(&self, factor: &Factor<M>) -> Factor<M> {
         let mut factor = factor.clone();
         if let Some(reciprocals) = self.reciprocal_units() {
             factor.express(reciprocals);

@@ -257,7 +257,8 @@ impl<T: Kernels> Fleet<T> {
 
 /// How every sample changes P of an estimator that can be a stream.
 fn form_of<T: Kernels>(estimator: &AnyEstimator<T>) -> Option<Form<T>> {
-    estimator.form().filter(|_| estimator.health().is_none())
+    let plain = estimator.health().is_none() && !estimator.prior().is_of_data();
+    estimator.form().filter(|_| plain)
 }
 
 /// What distinguishes forms of one rule.

@@ -136,7 +136,8 @@ impl<T: Number> Outputs<T> {
     pub fn note_prior(&mut self, estimator: &AnyEstimator<T>, missing: bool) {
         if let Some(covariance) = &mut self.prior_covariance {
             let prior = estimator.prior_factor().filter(|_| !missing);
-            reconstruct(covariance, &prior.unwrap_or_else(|| estimator.factor()));
+            let prior = prior.unwrap_or_else(|| estimator.factor());
+            reconstruct(covariance, &estimator.express(prior));
         }
     }
 
@@ -151,12 +152,12 @@ impl<T: Number> Outputs<T> {
         }
         if let Some(variance) = &mut self.variance {
             let start = variance.len();
-            let factor = estimator.factor();
+            let factor = estimator.express(estimator.factor());
             variance.resize(start + factor.parameters(), T::ZERO);
             factor.variances(&mut variance[start..]);
         }
         if let Some(covariance) = &mut self.covariance {
-            reconstruct(covariance, &estimator.factor());
+            reconstruct(covariance, &estimator.express(estimator.factor()));
         }
     }
 
