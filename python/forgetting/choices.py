@@ -125,6 +125,10 @@ class Gate(Choice):
     """Whether a sample is used."""
 
 
+class Mixer(Choice):
+    """What weighs the members of a bank; see `forgetting.mixers`."""
+
+
 def _as_rate(given: Any) -> Any:
     """A number, or a rate made from what else may stand for a forgetting factor."""
     if isinstance(given, str):
@@ -254,7 +258,7 @@ list of dict
 
 def _base(name: str, summary: str) -> type[Choice]:
     """The class that entries of an axis derive from: the one above, if there is one."""
-    written = {kind.__name__.lower(): kind for kind in (Rule, Rate, Weighting, Gate)}
+    written = {kind.__name__.lower(): kind for kind in (Rule, Rate, Weighting, Gate, Mixer)}
     body = {"__doc__": summary, "__module__": __package__}
     return written.get(name) or type(name.capitalize(), (Choice,), body)
 

@@ -7,9 +7,10 @@ from typing import Any, ClassVar, Literal
 from numpy.typing import ArrayLike
 
 from ._core import Evidence
-from .choices import ForgettingFactor, Gate, Rate, Rule, Weighting
+from .choices import Choice, ForgettingFactor, Gate, Rate, Rule, Weighting
 
 __all__ = [
+    "Best",
     "Component",
     "Constant",
     "ConstantTrace",
@@ -19,6 +20,7 @@ __all__ = [
     "DataDependent",
     "DeadZone",
     "Directional",
+    "DynamicModelAveraging",
     "Efra",
     "Equal",
     "ExactGradient",
@@ -33,6 +35,8 @@ __all__ = [
     "Huber",
     "MatrixForgetting",
     "MinimumInformation",
+    "Mixer",
+    "Mlpol",
     "Multiple",
     "NoForgetting",
     "NoisePower",
@@ -53,6 +57,8 @@ __all__ = [
     "Weighting",
     "gate",
     "gates",
+    "mixer",
+    "mixers",
     "rate",
     "rates",
     "rule",
@@ -72,6 +78,38 @@ def weightings() -> list[dict[str, Any]]: ...
 
 def gate(name: str, **parameters: Any) -> Gate: ...
 def gates() -> list[dict[str, Any]]: ...
+
+class Mixer(Choice):
+    """Which members of a bank to believe: their weights, from how well each has predicted."""
+
+def mixer(name: str, **parameters: Any) -> Mixer: ...
+def mixers() -> list[dict[str, Any]]: ...
+
+class Best(Mixer):
+    """Believes the member with the smallest discounted sum of squared errors, and no other.
+
+    ```text
+    s_i ← α s_i + e_i²                 w_i = 1 for the smallest s_i, shared where several are
+    ```
+
+    | symbol | name | range | default |
+    |---|---|---|---|
+    | α | discount | (0, 1] | 0.99 |
+
+    - Cost: O(K p m). State: K numbers.
+    - Use it to see which member fits when. As a predictor it jumps from member to member where two
+      are alike: `mlpol` is seldom worse.
+
+    Reference: the rule of follow the leader; N. Cesa-Bianchi, G. Lugosi, *Prediction, Learning, and
+    Games*, Cambridge University Press, 2006.
+    """
+
+    about: ClassVar[Mapping[str, Any]]
+    name: ClassVar[str]
+    def __init__(
+        self,
+        discount: float = 0.99,
+    ) -> None: ...
 
 class Component(Rule):
     """Forgets each parameter, or each block of parameters, at a rate of its own.
@@ -422,6 +460,39 @@ class Directional(Rule):
         self,
         forgetting_factor: ForgettingFactor = 0.99,
         threshold: float = 1e-06,
+    ) -> None: ...
+
+class DynamicModelAveraging(Mixer):
+    """Believes members as far as they are probable, and lets probability drift from one to another.
+
+    ```text
+    π̂_i ∝ π_i^α                                      between samples: the model may have changed
+    π_i ∝ π̂_i N(y; φθ_i, v_i (1 + s_i))               Gaussian; s_i = φP̄φᵀ, the leverage
+    v_i ← v_i + (e_i²/(1 + s_i) − v_i)/min(k, N)      the noise variance, from member i's own errors
+    w_i = π̂_i
+    ```
+
+    | symbol | name | range | default |
+    |---|---|---|---|
+    | α | forgetting | (0, 1] | 0.99 |
+    | N | memory | [1, ∞) | 100 |
+
+    - The weights are probabilities if one of the members is right and the noise is Gaussian. One gross
+      error then moves them far: `mlpol` is the sturdier.
+    - Cost: O(K p m) and K logarithms and exponentials. State: 2 K + 1 numbers.
+    - Use it where the probability of each model is itself the result.
+
+    Reference: A. E. Raftery, M. Kárný, P. Ettler, *Online prediction under model uncertainty via
+    dynamic model averaging: application to a cold rolling mill*, Technometrics 52(1), 2010, with the
+    noise variance estimated for each model.
+    """
+
+    about: ClassVar[Mapping[str, Any]]
+    name: ClassVar[str]
+    def __init__(
+        self,
+        forgetting: float = 0.99,
+        memory: float = 100.0,
     ) -> None: ...
 
 class Efra(Rule):
@@ -898,6 +969,35 @@ class MinimumInformation(Gate):
         otherwise: Literal["hold", "freeze"] = "hold",
     ) -> None: ...
 
+class Mlpol(Mixer):
+    """Believes members in proportion to how much better than the mixture they have been, with nothing to tune.
+
+    ```text
+    r_i = 2 e (e − e_i)                    how much following member i more would have helped
+    R_i ← R_i + r_i                        regret of not having followed it
+    B⁺ = max(B_i, r_i²),  S_i ← S_i + r_i² + B⁺ − B_i,  B_i ← B⁺
+    w_i ∝ max(R_i, 0)/S_i                  all alike while no regret is positive
+    ```
+
+    e is the error of the mixture and e_i that of member i; for several rows and targets the products
+    are sums over them.
+
+    - After T samples the squared error of the mixture exceeds that of the best fixed convex
+      combination of the K members by at most the root of K (1 + ln T) times the largest S_i, whatever
+      the samples are.
+    - It has no unit: errors are taken in units of the largest so far.
+    - A member that has always been worse than the mixture has weight 0, and costs nothing.
+    - Cost: O(K p m). State: 3 K + 1 numbers.
+    - Use it first: it is the default mixer.
+
+    Reference: P. Gaillard, G. Stoltz, T. van Erven, *A second-order bound with excess losses*,
+    Proceedings of the 27th Conference on Learning Theory, 2014 (ML-Poly).
+    """
+
+    about: ClassVar[Mapping[str, Any]]
+    name: ClassVar[str]
+    def __init__(self) -> None: ...
+
 class Multiple(Rule):
     """Forgets parameters, or blocks of them, each at its own rate, and keeps no information between blocks.
 
@@ -1110,22 +1210,27 @@ class RandomWalk(Rule):
 
     ```text
     P̄ = P + Q                                prediction of the Kalman filter with transition I
-    F_k = R − (P + Q)⁻¹                      the same as Theorem 1 of GF-RLS has it; the form
-                                             used: one dyad for each row of a root of Q
+    P̄ = (1 − λ_max(Q)/b) P + Q               where a bound b is given
+    F_k = R − P̄⁻¹                            the same as Theorem 1 of GF-RLS has it; the form used: one
+                                             dyad for each row of a root of Q, and for Q = c·I with
+                                             n ≤ 10 one pass of Gram and Schmidt over [U, I]
     ```
 
     | symbol | name | range | default |
     |---|---|---|---|
     | Q | process_noise | a number c ≥ 0 (c·I), n numbers ≥ 0 or an n x n positive semidefinite matrix | 1e-4 |
+    | b | bound | (0, ∞), above process_noise, or not given | not given |
 
-    - Proper (A1): always.
-    - P̄ bounded above without excitation (A2): no. Without information P grows by Q at each
-      sample, linearly.
+    - Proper (A1): without a bound; with one, while P ≤ Q b/λ_max(Q), which for Q = c·I is P ≤ b·I.
+    - P̄ bounded above without excitation (A2): with a bound b, since P ≤ b·I makes P̄ ≤ b·I. Without one
+      P grows by Q at each sample that brings no information, linearly.
     - P bounded below (A3): if Q > 0 and φ is bounded.
-    - Cost: O((p + r) n²), r the rank of Q; O(n³) for a full one. State: P alone.
+    - Cost: O((p + r) n²), r the rank of Q; O(n³) for a full one, at n ≤ 10 with Q = c·I about twice that
+      of `exponential`. State: P alone.
     - Q is per sample and in units of P: the variance by which θ moves, over the variance of the
       measurement noise (Γ).
-    - Use it when that ratio is known: the estimate is then the optimal one.
+    - Use it when that ratio is known: the estimate is then the optimal one. With P₀ that follows the
+      data, Q counts in units of the root mean square of each regressor.
 
     Reference: R. E. Kalman, *A new approach to linear filtering and prediction problems*, Journal
     of Basic Engineering 82, 1960; as forgetting, GF-RLS, Theorem 1.
@@ -1136,6 +1241,7 @@ class RandomWalk(Rule):
     def __init__(
         self,
         process_noise: ArrayLike = 0.0001,
+        bound: float | None = None,
     ) -> None: ...
 
 class Restricted(Rule):
@@ -1255,7 +1361,8 @@ class Stabilised(Rule):
     P̄ = λ_k P_k + (1 − λ_k) P_∞              stabilised (regularized) linear forgetting
     F_k = R_k − P̄⁻¹                          as a case of Theorem 1
     P ← λ P, P ← P + (1 − λ) Σ_i r_iᵀr_i     the form used: D ← λ D, then one covariance row for
-                                             each row r_i of a root of P_∞
+                                             each row r_i of a root of P_∞; for P_∞ = c·I with n ≤ 10
+                                             one pass of Gram and Schmidt over [U, I]
     ```
 
     | symbol | name | range | default |
@@ -1270,7 +1377,7 @@ class Stabilised(Rule):
     - P̄ bounded above without excitation (A2): always, by the larger of P₀ and P_∞.
     - P bounded below (A3): if λ_k ≤ λ_max < 1 and φ is bounded: after a sample with φ̄ᵀφ̄ ≤ β I,
       P⁻¹ ≤ β I + P_∞⁻¹/(1 − λ_max).
-    - Cost: O(n³). State: P alone.
+    - Cost: O(n³), at n ≤ 10 with P_∞ = c·I about twice that of `exponential`. State: P alone.
     - Use it when the gain must neither wind up nor fall asleep, with both bounds stated
       beforehand. The smallest variance that it keeps, (1 − λ) P_∞, is noise in the estimate.
 

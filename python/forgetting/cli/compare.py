@@ -45,7 +45,7 @@ def compare(
         str, typer.Option("--rules", help="all, or registry names with commas.")
     ] = "all",
     forgetting_factor: options.ForgettingFactor = None,
-    initial_covariance: options.InitialCovariance = "100",
+    initial_covariance: options.InitialCovariance = "auto",
     report: options.Report = None,
 ) -> None:
     """Run forgetting rules side by side on a record, ranked by their one-step error.
@@ -130,7 +130,7 @@ def save(found: list[tuple[str, Identification]], refused: list[str], path: Path
             facts=() if best is None else best.samples.facts(),
             verdicts=[f"Refused: {sentence}" for sentence in refused],
             figures=[
-                Figure(f"{place}. {name}", brief(error_of(each)), repr(each.rule))
+                Figure(f"{place}. {name}", brief(error_of(each)), each.rule_in_words)
                 for place, (name, each) in enumerate(found[:3], start=1)
             ],
             blocks=[

@@ -10,7 +10,7 @@ import numpy as np
 
 from forgetting.cli import options
 from forgetting.cli.progress import progress_bar
-from forgetting.cli.rulebook import make_gate, make_rule
+from forgetting.cli.rulebook import make_gate, rule_or_auto
 from forgetting.cli.source import read_record, show_record
 from forgetting.cli.tables import print_identification, print_written, say
 from forgetting.files import check_outputs
@@ -26,18 +26,19 @@ def identify(
     output: options.Outputs = None,
     input: options.Inputs = None,
     arx: options.Orders = None,
+    offset: options.Offset = True,
     time: options.Time = None,
     gap: options.Gap = None,
     missing: options.Missing = None,
     part: options.Part = None,
     encoding: options.Encoding = None,
     show: options.Show = False,
-    rule: options.RuleName = "subspace",
+    rule: options.RuleName = None,
     forgetting_factor: options.ForgettingFactor = None,
     threshold: options.Threshold = None,
     settings: options.Settings = None,
     gate: options.GateText = None,
-    initial_covariance: options.InitialCovariance = "100",
+    initial_covariance: options.InitialCovariance = "auto",
     dtype: options.Dtype = "float64",
     report: options.Report = None,
     estimates: options.Estimates = None,
@@ -58,7 +59,8 @@ def identify(
     source = read_record(record, time, gap, missing, part, encoding)
     if show:
         return show_record(source)
-    chosen, before = make_rule(rule, forgetting_factor, threshold, settings or []), make_gate(gate)
+    chosen = rule_or_auto(rule, forgetting_factor, threshold, settings or [])
+    before = make_gate(gate)
     with progress_bar(f"identifying {record.name}") as progress:
         found = identify_record(
             source,
@@ -66,6 +68,7 @@ def identify(
             output=output or (),
             input=input or (),
             arx=None if arx is None else parse_orders(arx),
+            offset=offset,
             rule=chosen,
             gate=before,
             initial_covariance=parse_covariance(initial_covariance),
@@ -130,11 +133,13 @@ def parse_orders(text: str) -> list[int]:
 
 
 def parse_covariance(text: str) -> Any:
-    """Read one number, or the diagonal with commas."""
+    """Read one number, or the diagonal with commas; None for auto."""
+    if text == "auto":
+        return None
     try:
         values = [float(part) for part in text.split(",")]
     except ValueError:
         raise RecordError(
-            f"--initial-covariance takes a number, or numbers with commas, but got {text!r}"
+            f"--initial-covariance takes auto, a number, or numbers with commas, but got {text!r}"
         ) from None
     return values[0] if len(values) == 1 else np.array(values)

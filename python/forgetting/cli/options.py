@@ -49,6 +49,14 @@ Orders = Annotated[
         metavar="NA,NB,NK",
     ),
 ]
+Offset = Annotated[
+    bool,
+    option(
+        MODEL,
+        "Whether an ARX model has a constant, as data about an operating point need.",
+        "--offset/--no-offset",
+    ),
+]
 Time = Annotated[
     str | None,
     option(
@@ -92,7 +100,14 @@ Encoding = Annotated[
 ]
 Show = Annotated[bool, option(READING, "Only say how the record is read.", "--show")]
 RuleName = Annotated[
-    str, option(RULE, "Forgetting rule; 'forgetting rules' lists them.", "--rule", "-r")
+    str | None,
+    option(
+        RULE,
+        "Forgetting rule; 'forgetting rules' lists them. Without one, rules of all speeds are "
+        "mixed by how well they predict.",
+        "--rule",
+        "-r",
+    ),
 ]
 ForgettingFactor = Annotated[
     float | None,
@@ -130,7 +145,8 @@ InitialCovariance = Annotated[
     str,
     option(
         RULE,
-        "P before the first sample: one number, or one per parameter, with commas.",
+        "P before the first sample: one number, or one per parameter, with commas; auto follows "
+        "the data, and units do not matter.",
         "--initial-covariance",
         metavar="P0",
     ),

@@ -34,6 +34,22 @@ def make_rule(
     return fg.rule(name, **parameters)
 
 
+def rule_or_auto(
+    name: str | None,
+    forgetting_factor: float | None,
+    threshold: float | None,
+    settings: list[str],
+) -> Any:
+    """The rule; "auto" where nothing is said of it, `subspace` where only its parameters are."""
+    if name is None and forgetting_factor is None and threshold is None and not settings:
+        return "auto"
+    if name == "auto":
+        if forgetting_factor is not None or threshold is not None or settings:
+            raise RecordError("the rule 'auto' has no parameters")
+        return name
+    return make_rule(name or "subspace", forgetting_factor, threshold, settings)
+
+
 def make_gate(text: str | None) -> Any:
     """Make the gate of ``name:parameter=value,...``; None without a gate."""
     if text is None:

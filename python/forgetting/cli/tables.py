@@ -64,7 +64,7 @@ def print_identification(found: Identification) -> None:
     out.print(f"[bold]{escape(samples.source)}[/]  {escape(samples.model)}")
     for word, text in samples.facts()[1:]:
         out.print(escape(text if word == "clock" else f"{word} {text}"))
-    out.print(f"rule {escape(repr(found.rule))}\n")
+    out.print(f"rule {escape(found.rule_in_words)}\n")
     out.print(parameters(found))
     out.print(scores(found))
     out.print(f"samples     {len(samples.y)}: {found.used} used, {found.left_out()}")

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from forgetting._core import RLS, InvalidInput
+from forgetting._core import RLS, Bank, InvalidInput
 from forgetting.models.channels import channels, paired
 from forgetting.models.constructor import Constructor
 from forgetting.models.lags import regressors
@@ -33,9 +33,11 @@ class ARX(Constructor):
     na, nb, nk : int
         Orders: past outputs, inputs, and delay of the newest input in samples; all >= 0.
     rule : str or Rule
-        Forgetting rule, by registry name or as an object such as ``fg.Subspace(0.98)``.
-    initial_covariance : float or array_like
-        P before the first sample: a scalar, the (n,) diagonal, or (n, n); in units of 1/phi².
+        Forgetting rule, by registry name or as an object such as ``fg.Subspace(0.98)``; "auto"
+        mixes rules of all speeds, see `forgetting.Bank`.
+    initial_covariance : float or array_like, optional
+        P before the first sample: a scalar, the (n,) diagonal, or (n, n); in units of 1/phi². If
+        not given it follows the data, and units do not matter.
     dtype : str
         "float64" or "float32", the precision of the estimator.
 
@@ -45,7 +47,7 @@ class ARX(Constructor):
         Estimate after the last sample.
     covariance_ : ndarray, shape (n, n)
         P after the last sample; times the noise variance it is the parameter covariance.
-    estimator_ : forgetting.RLS
+    estimator_ : forgetting.RLS or forgetting.Bank
         The estimator itself.
     samples_, used_ : int
         Rows seen since `fit`, and how many of them the estimate has used.
@@ -71,8 +73,8 @@ class ARX(Constructor):
         na: int = 1,
         nb: int = 2,
         nk: int = 0,
-        rule: Any = "subspace",
-        initial_covariance: ArrayLike = 100.0,
+        rule: Any = "auto",
+        initial_covariance: ArrayLike | None = None,
         dtype: str = "float64",
     ) -> None:
         self.na = na
@@ -104,12 +106,8 @@ class ARX(Constructor):
         """
         inputs, outputs = paired(u, y)
         orders = self._orders(inputs)
-        estimator = RLS(
-            orders.regressors(outputs.shape[1], inputs.shape[1]),
-            rule=self.rule,
-            targets=outputs.shape[1],
-            initial_covariance=self.initial_covariance,
-            dtype=self.dtype,
+        estimator = self._estimator(
+            orders.regressors(outputs.shape[1], inputs.shape[1]), outputs.shape[1]
         )
         used = self._learn(estimator, orders, inputs, outputs)
         self.n_inputs_, self.n_outputs_ = inputs.shape[1], outputs.shape[1]
@@ -117,6 +115,16 @@ class ARX(Constructor):
         self._remember(orders, inputs, outputs)
         self.samples_, self.used_ = len(outputs), used
         return self
+
+    def _estimator(self, parameters: int, targets: int) -> Any:
+        settings: dict[str, Any] = {
+            "targets": targets,
+            "initial_covariance": self.initial_covariance,
+            "dtype": self.dtype,
+        }
+        if isinstance(self.rule, str) and self.rule == "auto":
+            return Bank(parameters, **settings)
+        return RLS(parameters, rule=self.rule, **settings)
 
     def partial_fit(self, u: ArrayLike | None, y: ArrayLike) -> ARX:
         """Go on with the next rows; any split of a record gives the same as one `fit`.

@@ -43,7 +43,7 @@ def overview(found: Identification, output: int = 0) -> Figure:
             ax.set_xlabel("")
         figure.align_ylabels()
         figure.suptitle(
-            literal(f"{found.samples.source}: {found.samples.model}\n{found.rule!r}"),
+            literal(f"{found.samples.source}: {found.samples.model}\n{found.rule_in_words}"),
             x=0.01,
             ha="left",
             fontsize=11.5,

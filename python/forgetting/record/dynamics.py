@@ -14,9 +14,16 @@ from forgetting.record.read import Record
 from forgetting.record.samples import Samples
 from forgetting.words.errors import RecordError
 
+CONSTANT = "offset"
+"""What the constant of an ARX model is called."""
+
 
 def dynamics(
-    record: Record, outputs: Sequence[str], inputs: Sequence[str], arx: Sequence[int]
+    record: Record,
+    outputs: Sequence[str],
+    inputs: Sequence[str],
+    arx: Sequence[int],
+    offset: bool = True,
 ) -> Samples:
     """Build the samples of y(k) = phi(k) theta for named outputs and inputs.
 
@@ -29,6 +36,8 @@ def dynamics(
         Column names; several outputs share one regressor.
     arx : sequence of three int
         Orders na, nb, nk.
+    offset : bool
+        Whether the last regressor is the constant 1, for data that are not deviations from rest.
     """
     if not outputs:
         raise RecordError("an ARX model needs at least one output column")
@@ -41,6 +50,9 @@ def dynamics(
     model = f"ARX({orders.na},{orders.nb},{orders.nk}) of {', '.join(outputs)}"
     model += f" on {', '.join(inputs)}" if inputs else ""
     labels = tuple(names(outputs, inputs, orders))
+    if offset:
+        phi = np.column_stack([phi, np.where(np.isnan(phi).any(axis=1), np.nan, 1.0)])
+        labels += (CONSTANT,)
     return Samples(
         phi, y, labels, tuple(outputs), model, record.clock, record.name, cut, record.found
     ).check()

@@ -43,7 +43,9 @@ class Identification(Counts):
     verdicts : list of str
         Plain sentences on what the record excited.
     initial_covariance : ndarray, shape (n, n)
-        P before the first sample.
+        P before the first sample, for regressors in these units.
+    units : ndarray, shape (n,)
+        What regressors were measured in at the end; 1 where P before the first sample was given.
     """
 
     samples: Samples
@@ -51,6 +53,7 @@ class Identification(Counts):
     scores: Scores
     verdicts: list[str]
     initial_covariance: Array
+    units: Array
 
     @cached_property
     def noise_variance(self) -> Array:
@@ -79,6 +82,18 @@ class Identification(Counts):
             self.final(), columns=["output", "parameter", "value", "standard_error"]
         )
 
+    @property
+    def rule_in_words(self) -> str:
+        """The rule, or the bank: how many members, and over how many samples it remembers."""
+        if self.trace.weights is None or self.trace.memory is None:
+            return repr(self.rule)
+        memory = self.trace.memory[-1]
+        length = f"{memory:.3g} samples" if np.isfinite(memory) else "the whole record"
+        return (
+            f"bank of {self.trace.weights.shape[1]} members, at the end with a memory of {length}; "
+            f"most believed: {self.rule!r}"
+        )
+
     def final(self) -> list[tuple[str, str, float, float]]:
         """Output, regressor, final value and its standard error, output by output."""
         return [
@@ -92,7 +107,7 @@ class Identification(Counts):
         """Bounds of P that the rule guarantees, for regressors and rates as in this record."""
         used = self.trace.skipped == USED
         factors = self.trace.forgetting_factor[used]
-        squares = np.square(self.samples.phi[used]).sum(axis=1)
+        squares = np.square(self.samples.phi[used] / self.units).sum(axis=1)
         return guaranteed_bounds(
             self.rule,
             self.initial_covariance,
@@ -108,7 +123,10 @@ class Identification(Counts):
         forgotten = 1.0 - float(np.median(self.trace.forgetting_factor[used])) if used.any() else 0
         total, n = self.samples.phi.shape
         longest = max(1, min(total, max(2 * n, total // 4)))
-        window = int(np.clip(np.ceil(1 / max(forgotten, 1e-9)), min(2 * n, longest), longest))
+        remembered = 1 / max(forgotten, 1e-9)
+        if self.trace.memory is not None and used.any():
+            remembered = float(np.median(self.trace.memory[used]))
+        window = int(np.clip(np.ceil(remembered), min(2 * n, longest), longest))
         return excited(self.samples.phi, window)
 
     @property
@@ -133,7 +151,7 @@ class Identification(Counts):
         found = {
             "record": self.samples.source,
             "model": self.samples.model,
-            "rule": repr(self.rule),
+            "rule": self.rule_in_words,
             "parameters": rows,
             "rmse": self.scores.by_output(self.samples.outputs),
             "read_as": self.samples.found.to_dict(),

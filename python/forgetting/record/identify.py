@@ -14,6 +14,7 @@ from forgetting.record.dynamics import dynamics
 from forgetting.record.identification import Identification
 from forgetting.record.missing import Words
 from forgetting.record.names import clean
+from forgetting.record.origin import origin
 from forgetting.record.read import Record, read
 from forgetting.record.samples import Samples
 from forgetting.record.scores import score
@@ -32,9 +33,10 @@ def identify(
     output: str | Sequence[str] = (),
     input: str | Sequence[str] = (),
     arx: Sequence[int] | None = None,
-    rule: Any = "subspace",
+    offset: bool = True,
+    rule: Any = "auto",
     gate: Any = None,
-    initial_covariance: ArrayLike = 100.0,
+    initial_covariance: ArrayLike | None = None,
     dtype: str = "float64",
     time: str | None = None,
     gap: str | float | None = None,
@@ -54,11 +56,15 @@ def identify(
     arx : sequence of three int, optional
         Orders na, nb, nk of the ARX model.
     rule : str or Rule
-        Forgetting rule.
+        Forgetting rule; "auto" mixes rules of all speeds, see `forgetting.Bank`.
     gate : str, Gate or callable, optional
         Whether a sample is used; see `forgetting.gates`.
-    initial_covariance : float or array_like
-        P before the first sample: scalar, (n,) diagonal or (n, n), in units of 1/regressor².
+    initial_covariance : float or array_like, optional
+        P before the first sample: scalar, (n,) diagonal or (n, n), in units of 1/regressor². If not
+        given it follows the data, and a model with a constant is measured from the first sample: no
+        prediction depends on the units of the columns or on where they have their zero.
+    offset : bool
+        Whether an ARX model has a constant.
     dtype : str
         "float64" or "float32".
     time, gap, missing
@@ -95,27 +101,41 @@ def identify(
     (200, 0)
     """
     source = read(record, time, gap=gap, missing=missing)
-    samples = build(source, formula, listed(output), listed(input), arx)
-    estimator = fg.RLS(
-        samples.phi.shape[1],
-        rule=rule,
-        gate=gate,
-        targets=samples.y.shape[1],
-        initial_covariance=initial_covariance,
-        dtype=dtype,
-        monitor=True,
-    )
+    samples = build(source, formula, listed(output), listed(input), arx, offset)
+    settings: dict[str, Any] = {
+        "targets": samples.y.shape[1],
+        "initial_covariance": initial_covariance,
+        "dtype": dtype,
+    }
+    estimator = estimator_for(samples.phi.shape[1], rule, gate=gate, **settings)
+    here = origin(samples, moves=initial_covariance is None)
     initial = np.asarray(estimator.covariance, dtype=np.float64)
-    trace = run(estimator, samples, progress)
-    baseline = errors_without_forgetting(samples, initial_covariance, dtype)
+    moved = here.moved(samples)
+    trace = run(estimator, moved, progress)
+    units = np.ones(len(initial)) if estimator.units is None else estimator.units
     return Identification(
         samples=samples,
-        trace=trace,
-        rule=estimator.rule if isinstance(rule, str) else rule,
-        scores=score(samples, trace.error, baseline),
-        verdicts=verdicts(samples, trace, np.diag(initial)),
+        trace=here.back(trace),
+        rule=rule_of(estimator, rule),
+        scores=score(samples, trace.error, errors_without_forgetting(moved, settings)),
+        verdicts=verdicts(moved, trace, np.diag(initial) / np.square(units)),
         initial_covariance=initial,
+        units=np.asarray(units, dtype=np.float64),
     )
+
+
+def estimator_for(parameters: int, rule: Any, **settings: Any) -> Any:
+    """The estimator of a rule, monitored; the default bank for the rule "auto"."""
+    if isinstance(rule, str) and rule == "auto":
+        return fg.Bank(parameters, **settings)
+    return fg.RLS(parameters, rule=rule, monitor=True, **settings)
+
+
+def rule_of(estimator: Any, rule: Any) -> Any:
+    """The rule that was asked for as an object; of a bank the one most believed at the end."""
+    if isinstance(estimator, fg.Bank):
+        return estimator.members[int(np.argmax(estimator.weights))]
+    return estimator.rule if isinstance(rule, str) else rule
 
 
 def build(
@@ -124,6 +144,7 @@ def build(
     outputs: list[str],
     inputs: list[str],
     arx: Sequence[int] | None,
+    offset: bool = True,
 ) -> Samples:
     """Choose between a formula and ARX, and refuse half of one with half of the other."""
     if formula is not None:
@@ -135,7 +156,7 @@ def build(
         return regression(record, formula)
     if arx is None or not outputs:
         raise RecordError("say the model: a formula, or output columns with ARX orders na,nb,nk")
-    return dynamics(record, outputs, inputs, arx)
+    return dynamics(record, outputs, inputs, arx, offset)
 
 
 def listed(names: str | Sequence[str]) -> list[str]:

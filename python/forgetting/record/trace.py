@@ -63,7 +63,14 @@ class Trace:
     rows : ndarray of int, shape (K,)
         Rows after which the eigenvalues were taken.
     eigenvalues : ndarray, shape (K, n)
-        Eigenvalues of P, ascending.
+        Eigenvalues of P, ascending; for regressors in units of their root mean square where P
+        before the first sample was not given.
+    covariances : ndarray, shape (K, n, n)
+        P after these rows.
+    memory : ndarray, shape (T,), or None
+        Of a bank: over how many samples it remembers.
+    weights : ndarray, shape (T, members), or None
+        Of a bank: how far each member is believed.
     covariance : ndarray, shape (n, n)
         P after the last sample.
     """
@@ -78,7 +85,10 @@ class Trace:
     variance: Array
     rows: NDArray[np.int64]
     eigenvalues: Array
+    covariances: Array
     covariance: Array
+    memory: Array | None = None
+    weights: Array | None = None
 
 
 def run(estimator: Any, samples: Samples, progress: Progress | None = None) -> Trace:
@@ -89,18 +99,23 @@ def run(estimator: Any, samples: Samples, progress: Progress | None = None) -> T
     total = len(y)
     pieces: list[Any] = []
     rows: list[int] = []
-    eigenvalues: list[Array] = []
+    covariances: list[NDArray[Any]] = []
+    eigenvalues: list[NDArray[Any]] = []
+    outputs = (*HISTORY, "memory", "weights") if isinstance(estimator, fg.Bank) else HISTORY
     for start, stop in chunks(total, phi.shape[1]):
         try:
-            piece = estimator.run(phi[start:stop], y[start:stop], outputs=HISTORY, missing="skip")
+            piece = estimator.run(phi[start:stop], y[start:stop], outputs=outputs, missing="skip")
         except (fg.InvalidInput, fg.NumericalRange) as error:
             raise type(error)(in_rows(str(error), start)) from None
         pieces.append(piece)
         rows.append(stop - 1)
-        eigenvalues.append(np.linalg.eigvalsh(estimator.covariance.astype(np.float64)))
+        covariances.append(estimator.covariance.astype(np.float64))
+        units = np.ones(phi.shape[1]) if estimator.units is None else estimator.units
+        eigenvalues.append(np.linalg.eigvalsh(covariances[-1] * np.outer(units, units)))
         if progress is not None:
             progress(stop, total)
-    return joined(pieces, samples, np.array(rows), np.array(eigenvalues), estimator.covariance)
+    ends = (np.array(rows), np.array(eigenvalues), np.array(covariances))
+    return joined(pieces, samples, ends)
 
 
 def in_rows(message: str, start: int) -> str:
@@ -124,10 +139,12 @@ def chunks(total: int, parameters: int) -> list[tuple[int, int]]:
 
 
 def joined(
-    pieces: list[Any], samples: Samples, rows: NDArray[np.int64], eigenvalues: Array, last: Array
+    pieces: list[Any], samples: Samples, ends: tuple[NDArray[np.int64], Array, Array]
 ) -> Trace:
     """Put the pieces of a run behind one another, as float64."""
     total, outputs, n = len(samples.y), samples.y.shape[1], samples.phi.shape[1]
+    rows, eigenvalues, covariances = ends
+    bank = pieces[0].memory is not None
 
     def all_of(name: str) -> Array:
         return np.concatenate([getattr(piece, name) for piece in pieces])
@@ -143,19 +160,17 @@ def joined(
         variance=all_of("variance").astype(np.float64),
         rows=rows,
         eigenvalues=eigenvalues,
-        covariance=np.array(last, dtype=np.float64),
+        covariances=covariances,
+        covariance=covariances[-1],
+        memory=all_of("memory").astype(np.float64) if bank else None,
+        weights=all_of("weights").astype(np.float64) if bank else None,
     )
 
 
-def errors_without_forgetting(samples: Samples, initial_covariance: Any, dtype: str) -> Array:
+def errors_without_forgetting(samples: Samples, settings: dict[str, Any]) -> Array:
     """One-step errors (T, m) of the same model with the rule that never forgets."""
-    estimator = fg.RLS(
-        samples.phi.shape[1],
-        rule=fg.rule("none"),
-        targets=samples.y.shape[1],
-        initial_covariance=initial_covariance,
-        dtype=dtype,
-    )
+    estimator = fg.RLS(samples.phi.shape[1], rule=fg.rule("none"), **settings)
+    dtype = settings["dtype"]
     phi = samples.phi.astype(dtype)
     y = (samples.y if samples.y.shape[1] > 1 else samples.y[:, 0]).astype(dtype)
     result = estimator.run(phi, y, outputs=("error",), missing="skip")

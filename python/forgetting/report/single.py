@@ -36,7 +36,7 @@ def page(found: Identification) -> Page:
         blocks += [trust(found), memory(found), notes()]
     return Page(
         title=found.samples.source,
-        subtitle=f"{found.samples.model} · {found.rule!r}",
+        subtitle=f"{found.samples.model} · {found.rule_in_words}",
         facts=found.samples.facts(),
         verdicts=found.verdicts,
         figures=figures(found),

@@ -1,0 +1,88 @@
+"""Where a model with a constant measures from: the first sample in place of zero.
+
+A model y = c + phi theta says the same of y - y0 and phi - phi0 for any y0 and phi0, with
+another c. Measured from their first values, columns that are large and vary little (a temperature
+in kelvin, a time stamp, a plant about its operating point) become of the size by which they vary:
+no digits are lost, and what is believed beforehand does not depend on where a unit has its zero.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from forgetting.record.samples import Samples
+from forgetting.record.trace import Trace
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Origin:
+    """The point that regressors and outputs are measured from.
+
+    Attributes
+    ----------
+    constant : int or None
+        The column that is the constant; None where there is none, and nothing is moved.
+    level : float
+        Its value.
+    phi : ndarray, shape (n,)
+        What is taken from each regressor; 0 for the constant.
+    y : ndarray, shape (m,)
+        What is taken from each output.
+    """
+
+    constant: int | None
+    level: float
+    phi: Array
+    y: Array
+
+    def moved(self, samples: Samples) -> Samples:
+        """The samples, measured from here."""
+        if self.constant is None:
+            return samples
+        return replace(samples, phi=samples.phi - self.phi, y=samples.y - self.y)
+
+    def back(self, trace: Trace) -> Trace:
+        """What a run over `moved` samples found, in the terms of the samples as they are.
+
+        The variance of the constant is exact after each piece of the run, and drawn straight in
+        between.
+        """
+        if self.constant is None:
+            return trace
+        c, level = self.constant, self.level
+        theta = trace.theta.copy()
+        theta[:, c] += (self.y - np.einsum("i,tij->tj", self.phi, theta)) / level
+        change = np.eye(len(self.phi))
+        change[c] -= self.phi / level
+        variance = trace.variance.copy()
+        ends = np.einsum("i,kij,j->k", change[c], trace.covariances, change[c])
+        variance[:, c] = np.interp(np.arange(len(variance)), trace.rows, ends)
+        covariance = change @ trace.covariance @ change.T
+        return replace(trace, theta=theta, variance=variance, covariance=covariance)
+
+
+def origin(samples: Samples, moves: bool = True) -> Origin:
+    """The first complete sample, if the model has a constant and `moves`; else zero.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> phi = np.array([[1.0, 300.0], [1.0, 301.0]])
+    >>> here = origin(Samples(phi, np.array([[5.0], [6.0]]), ("1", "T"), ("y",), "", None, ""))
+    >>> here.constant, here.phi.tolist(), here.y.tolist()
+    (0, [0.0, 300.0], [5.0])
+    """
+    complete = samples.complete
+    phi, y = samples.phi[complete], samples.y[complete]
+    same = np.flatnonzero((phi == phi[0]).all(axis=0) & (phi[0] != 0))
+    if len(phi) < 2 or len(same) == 0 or not moves:
+        return Origin(None, 1.0, np.zeros(phi.shape[1]), np.zeros(y.shape[1]))
+    constant = int(same[0])
+    first = phi[0].copy()
+    first[constant] = 0.0
+    return Origin(constant, float(phi[0, constant]), first, y[0].copy())
