@@ -3,8 +3,8 @@
 mod signals;
 
 use forgetting_runtime::{
-    Array, Choice, CoreError, Elements, Error, Estimator, Kind, Missing, NumberType, Run,
-    Settings, View,
+    Array, Choice, CoreError, Elements, Error, Estimator, Kind, Missing, NumberType, Run, Settings,
+    View,
 };
 use signals::numbers;
 

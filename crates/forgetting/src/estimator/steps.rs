@@ -190,6 +190,6 @@ pub(super) fn forgotten<T: Real>(form: Form<T>, forgot: bool, n: usize) -> Forgo
         Form::Scale { growth } if growth == T::ONE => Forgotten::rank(0).with_factor(1.0),
         Form::Scale { .. } => Forgotten::rank(n),
         Form::Along { .. } => Forgotten::rank(usize::from(forgot)),
-        Form::Walk { .. } => Forgotten::rank(if forgot { n } else { 0 }).with_factor(1.0),
+        Form::Walk { .. } => Forgotten::rank(if forgot { n } else { 0 }),
     }
 }
