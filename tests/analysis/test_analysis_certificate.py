@@ -15,7 +15,8 @@ OUTPUTS = ("error", "covariance", "skipped", "forgetting_factor")
 @pytest.mark.parametrize("amplitude", [0.0, 1.0])
 def test_the_shortest_records_have_a_certificate(samples, amplitude):
     phi = amplitude * np.random.default_rng(samples).normal(size=(samples, 2))
-    run = fg.RLS(2, rule=fg.Exponential(0.9)).run(phi, np.ones(samples), outputs=OUTPUTS)
+    est = fg.RLS(2, rule=fg.Exponential(0.9), initial_covariance=100.0)
+    run = est.run(phi, np.ones(samples), outputs=OUTPUTS)
     found = certify(run, phi, initial_covariance=100.0)
     json.dumps(found.to_dict(), allow_nan=False)
     if samples == 20:  # 0.9^-20 = 8.2 < 10

@@ -116,7 +116,8 @@ def test_roundoff_in_a_reconstruction_is_not_said_to_be_improper(rule):
     rng = np.random.default_rng(2)
     lengths = 1e3 * rng.uniform(size=(300, 1)) * (np.arange(300) % 100 < 40)[:, None]
     phi = lengths * (np.array([1.0, -0.4]) + 0.3 * rng.uniform(size=(300, 1)) * [0.0, 1.0])
-    run = fg.RLS(2, rule=rule).run(phi, np.zeros(300), outputs=OUTPUTS)
+    est = fg.RLS(2, rule=rule, initial_covariance=100.0)
+    run = est.run(phi, np.zeros(300), outputs=OUTPUTS)
     assert conditions(run, phi, initial_covariance=100.0)["A1"].verdict != "fails"
 
 

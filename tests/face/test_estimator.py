@@ -126,7 +126,7 @@ def test_noise_covariance_weighs_rows():
     phi, y = record(50, 2, 1)
     gamma = np.array([[2.0, 0.3], [0.3, 0.5]])
     root = np.linalg.inv(np.linalg.cholesky(gamma))
-    weighted = fg.RLS(3, rule=fg.Exponential(0.9), rows=2)
+    weighted = fg.RLS(3, rule=fg.Exponential(0.9), rows=2, initial_covariance=100.0)
     white = copy.copy(weighted)
     weighted.run(phi, y, gamma=gamma)
     white.run(root @ phi, root @ y)
@@ -174,4 +174,5 @@ def test_a_rule_survives_the_way_into_the_core_and_back():
         assert repr(fg.RLS(3, rule=rule).rule) == repr(rule)
         assert fg.RLS(3, rule=rule).rule == rule
     assert fg.RLS(2, rule="exponential").rule == fg.Exponential()
-    assert fg.RLS(2).rule.name == "subspace"
+    assert fg.RLS(2, initial_covariance=1.0).rule.name == "subspace"
+    assert fg.RLS(2).rule == fg.RandomWalk(0.003, bound=1e5)

@@ -70,7 +70,7 @@ def test_a_callable_is_a_gate():
         seen.append((evidence.error, evidence.leverage, evidence.normalized_error))
         return ["update", "freeze", "hold"][len(seen) % 3]
 
-    est = fg.RLS(2, gate=gate, weighting=fg.Huber(1.0))
+    est = fg.RLS(2, gate=gate, weighting=fg.Huber(1.0), initial_covariance=100.0)
     update = est.update([1.0, 2.0], 30.0)
     # not clipped by the weighting; P before forgetting
     assert seen == [(30.0, 500.0, pytest.approx(900 / 501))]

@@ -87,7 +87,7 @@ def test_prediction_error_is_the_published_formula():
 def test_fortescue_uses_the_last_sample():
     phi, y = record(rows=2, targets=2)
     rule = fg.Exponential(fg.Fortescue(50.0, 2.0, smallest=0.2))
-    est = fg.RLS(3, rule=rule, rows=2, targets=2)
+    est = fg.RLS(3, rule=rule, rows=2, targets=2, initial_covariance=100.0)
     expected = 1.0
     for p, t in zip(phi, y, strict=True):
         error = t - est.predict(p)
@@ -157,7 +157,7 @@ def test_a_callable_gives_the_factor_and_sees_the_sample():
         seen.append(evidence)
         return 0.9 if evidence.samples < 10 else 0.98
 
-    est = fg.RLS(3, rule=fg.Exponential(factor), rows=2, targets=2)
+    est = fg.RLS(3, rule=fg.Exponential(factor), rows=2, targets=2, initial_covariance=100.0)
     for k, (p, t) in enumerate(zip(phi, y, strict=True)):
         spread = root @ p @ est.covariance @ p.T @ root.T
         error = root @ (t - est.predict(p))

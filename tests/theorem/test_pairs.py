@@ -40,7 +40,7 @@ def test_the_inner_rule_goes_on_from_the_covariance_of_the_reset(
         around = {"criterion": "period", "period": period, "covariance": covariance}
         case_around = {**around, "rule": (name, case)}
         data = record(kind, SAMPLES, p, 3, weighted=p > 1, seed=period)
-        est = fg.RLS(3, rule=product.rule("covariance_resetting", case_around, FACTOR), rows=p)
+        est = fg.RLS(3, rule=product.rule("covariance_resetting", case_around, FACTOR), rows=p, initial_covariance=100.0)
         worst, condition = 0.0, 1.0
         with precision.working(float(np.finfo(float).eps)):
             dense = Estimator(
@@ -77,7 +77,7 @@ def test_matrix_forgetting_after_a_reset_by_hand() -> None:
 def test_multiple_after_a_reset_by_hand() -> None:
     """P = 100 at sample 3, so that it is 100/101 after it, and R grows by 1 from then on."""
     rule = fg.CovarianceResetting(fg.Multiple(factors=1.0), "period", covariance=100.0, period=3)
-    est = fg.RLS(1, rule=rule)
+    est = fg.RLS(1, rule=rule, initial_covariance=100.0)
     found = []
     for _ in range(6):
         est.update([1.0], 0.0)

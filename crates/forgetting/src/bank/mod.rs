@@ -211,7 +211,11 @@ impl<T: Kernels> Bank<T> {
         self.mix(noise);
         let leverage = self.state.mixture.mean(&self.buffers.leverages, &self.buffers.awake);
         self.learn(skipped.is_none());
-        self.follow();
+        if skipped.is_none() {
+            self.follow();
+        } else if let Some(units) = &mut self.state.units {
+            units.unchoose(|_, _| {});
+        }
         let error = &self.buffers.error;
         Ok(BankUpdate { error, leverage, forgetting_factor, skipped, gate, windup, asleep })
     }

@@ -60,13 +60,13 @@ impl<M: Memory> Measured<M> {
         });
         self.units.measure(phi, self.phi.as_mut());
         let report = recursion.update(self.phi.as_ref(), y, noise);
-        if let Err(error) = report {
+        if matches!(report, Ok(Report { skipped: None, .. })) {
+            self.units.learn(self.phi.as_ref(), 1);
+            self.follow(recursion);
+        } else {
             self.take_back(recursion.state.theta.as_mut());
-            return Err(blame(phi, error));
         }
-        self.units.learn(self.phi.as_ref(), 1);
-        self.follow(recursion);
-        report
+        report.map_err(|error| blame(phi, error))
     }
 
     /// [`Recursion::update_many`] for φ in the units of the user.
@@ -91,11 +91,19 @@ impl<M: Memory> Measured<M> {
         if taken == 0 {
             return 0;
         }
-        units.learn(&measured[..taken * n], taken as u64);
+        let mut used = 0;
+        for (row, outcome) in measured.chunks_exact(n).zip(&outcomes[..taken]) {
+            if outcome.used {
+                units.learn(row, 1);
+                used += 1;
+            }
+        }
         if !thetas.is_empty() {
             units.express(&mut thetas[..taken * n]);
         }
-        self.follow(recursion);
+        if used > 0 {
+            self.follow(recursion);
+        }
         taken
     }
 
