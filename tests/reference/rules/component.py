@@ -3,8 +3,9 @@
     Pbar = P + blkdiag((1/lambda_b - 1) P_bb),   F = R - Pbar^-1
     published: the Kalman filter whose random walk has Q_k = blkdiag((1/lambda_b - 1) P_bb)
 
-``blocks`` and ``forgetting_factor`` as in ``multiple``. With one block of n it is ``exponential``. With
-the cyclic ``schedule`` and c blocks, sample k inflates block b = k mod c alone, by 1/lambda_b^c.
+``blocks`` and ``forgetting_factor`` as in ``multiple``. With one block of n it is ``exponential``.
+With the cyclic ``schedule`` and c blocks, sample k inflates block b = k mod c alone, by
+1/lambda_b^c.
 """
 
 from __future__ import annotations
