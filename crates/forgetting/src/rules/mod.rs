@@ -10,6 +10,7 @@ mod block_root;
 mod blocks;
 pub mod criterion;
 mod cycle;
+mod ellipsoid;
 mod root;
 
 pub use crate::sample::Skip;
