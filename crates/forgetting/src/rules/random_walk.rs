@@ -18,9 +18,9 @@
 //! | b | bound | (0, ∞), above process_noise, or not given | not given |
 //! | | schedule | "every_sample" adds Q at each sample, "cyclic" one dyad of it | "every_sample" |
 //!
-//! - Proper (A1): without a bound; with one, while P ≤ Q b/λ_max(Q), which for Q = c·I is P ≤ b·I, unless
-//!   the schedule is cyclic.
-//! - P̄ bounded above without excitation (A2): with a bound b, since P ≤ b·I makes P̄ ≤ b·I. Without one
+//! - Proper (A1): if there is no bound; with one, while P ≤ Q b/λ_max(Q), which for Q = c·I is P ≤ b·I,
+//!   but for the cyclic schedule, which draws each variance towards its bound in its turn.
+//! - P̄ bounded above without excitation (A2): if a bound b is given: P ≤ b·I makes P̄ ≤ b·I. Without one
 //!   P grows by Q at each sample that brings no information, linearly.
 //! - P bounded below (A3): if Q > 0 and φ is bounded.
 //! - Cost: O((p + r) n²), r the rank of Q; O(n³) for a full one, at n ≤ 10 with Q = c·I about twice that
