@@ -85,7 +85,8 @@ pub const ABOUT: About = About {
     guarantees: Some(Guarantees {
         proper: Guarantee::when(
             "no bound, or P <= bound and not cyclic",
-            Setting::usual(Input::Exciting(1)).with(&[("bound", Value::Real(0.5))]),
+            Setting::usual(Input::Exciting(1))
+                .with(&[("bound", Value::Real(0.5)), ("process_noise", Value::Real(0.1))]),
         ),
         bounded_above: Guarantee::when(
             "a bound is given",
