@@ -14,6 +14,7 @@ import time
 from . import (
     calls,
     fleet,
+    levels,
     limits,
     live,
     machine,
@@ -31,6 +32,7 @@ PARTS = {
     "machine": machine,
     "limits": limits,
     "single": single,
+    "levels": levels,
     "peers": peers,
     "rules": rules,
     "resetting": resetting,

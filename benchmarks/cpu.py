@@ -8,7 +8,9 @@ import subprocess
 from functools import cache
 from pathlib import Path
 
-# as the crate forgetting-cpu asks for them
+# holds the instructions of `forgetting` down, as of the crate forgetting-cpu
+VARIABLE = "FORGETTING_CPU"
+# the best first, as that crate asks for them
 LEVELS = {"avx512": {"avx512f", "avx512dq", "avx512vl"}, "avx2": {"avx2", "fma"}}
 CACHES = Path("/sys/devices/system/cpu/cpu0/cache")
 
@@ -37,16 +39,19 @@ def model() -> str:
     return " ".join([told.get("model name", platform.processor() or "unknown"), *numbers])
 
 
+def levels() -> list[str]:
+    """The sets of instructions that `forgetting` has for this machine, the best first."""
+    if platform.machine() in ("arm64", "aarch64"):
+        return ["neon"]
+    flags = set(processor().get("flags", "").split())
+    return [*(name for name, needed in LEVELS.items() if needed <= flags), "baseline"]
+
+
 def level() -> str:
     """The instructions that `forgetting` uses."""
-    if platform.machine() in ("arm64", "aarch64"):
-        return "neon"
-    flags = set(processor().get("flags", "").split())
-    has = [name for name, needed in LEVELS.items() if needed <= flags]
-    wanted = os.environ.get("FORGETTING_CPU", "avx512")
-    best = has[0] if has else "baseline"
-    order = ["baseline", "avx2", "avx512"]
-    return min(best, wanted if wanted in order else best, key=order.index)
+    order, wanted = [*LEVELS, "baseline"], os.environ.get(VARIABLE, "")
+    best = levels()[0]
+    return max(best, wanted, key=order.index) if wanted in order and best in order else best
 
 
 @cache

@@ -11,7 +11,7 @@ import forgetting as fg
 
 from . import native
 from .compile import FLAG_SETS, FLAGS, NotAvailable, compiler_version
-from .cpu import caches, cores, level, model
+from .cpu import VARIABLE, caches, cores, level, levels, model
 from .environment import THREADS
 from .ledger import Ledger
 from .plan import Plan
@@ -48,12 +48,12 @@ def compiled() -> Iterator[str]:
 def report(plan: Plan, ledger: Ledger) -> Iterator[str]:
     """Markdown."""
     sizes = ", ".join(f"{name} {size // 1024} KiB" for name, size in caches().items())
-    forced = os.environ.get("FORGETTING_CPU")
+    forced = os.environ.get(VARIABLE)
     load = ", ".join(f"{load:.1f}" for load in os.getloadavg())
     yield f"- {model()}; {cores()} cores; caches {sizes or 'unknown'}; {platform.platform()}"
     yield (
-        f"- forgetting {fg.__version__}, instructions {level()}"
-        f" (FORGETTING_CPU {forced or 'not set'}); C++ with what `-march=native` gives"
+        f"- forgetting {fg.__version__}, instructions {level()} of {', '.join(levels())}"
+        f" ({VARIABLE} {forced or 'not set'}); C++ with what `-march=native` gives"
     )
     yield f"- Python {platform.python_version()}, " + ", ".join(map(version, PACKAGES))
     yield "- " + ", ".join(compiled())

@@ -2,33 +2,22 @@
 
 use crate::choice::{read, write_value};
 use crate::errors::raise;
-use forgetting::choice::{About, Axis, Claim, Constants, Guarantees, Kind, Parameter, Setting};
+use forgetting::choice::{About, Axis, Constants, Guarantees, Parameter, Setting};
 use forgetting::gates::Answer;
-use forgetting::{Skip, AXES};
+use forgetting::AXES;
 use forgetting_runtime::{covariance_bounds, Choice, CovarianceBounds, FleetUpdate, Value};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
-fn claim(claim: Claim) -> String {
-    match claim {
-        Claim::Always => "always".into(),
-        Claim::If(condition) => format!("if {condition}"),
-        Claim::No => "no".into(),
-    }
-}
-
 /// What a rule guarantees, in words, and the settings in which each claim holds and fails.
 fn write_guarantees(entry: &Bound<'_, PyDict>, guarantees: &Guarantees) -> PyResult<()> {
-    let Guarantees { proper, bounded_above, bounded_below } = guarantees;
     let settings = PyDict::new(entry.py());
-    for (name, guarantee) in
-        [("proper", proper), ("bounded_above", bounded_above), ("bounded_below", bounded_below)]
-    {
+    for (name, guarantee) in guarantees.named() {
         let shown = PyDict::new(entry.py());
         shown.set_item("holds", setting(entry.py(), guarantee.holds)?)?;
         shown.set_item("fails", setting(entry.py(), guarantee.fails)?)?;
         settings.set_item(name, shown)?;
-        entry.set_item(name, claim(guarantee.claim))?;
+        entry.set_item(name, guarantee.claim.to_string())?;
     }
     entry.set_item("settings", settings)
 }
@@ -52,20 +41,11 @@ fn setting(py: Python<'_>, setting: Option<Setting>) -> PyResult<Option<Bound<'_
 
 fn parameter<'py>(py: Python<'py>, parameter: &Parameter) -> PyResult<Bound<'py, PyDict>> {
     let entry = PyDict::new(py);
-    let (kind, range) = match parameter.kind {
-        Kind::Real => ("real", parameter.range.words.to_owned()),
-        Kind::Whole => ("whole", parameter.range.words.to_owned()),
-        Kind::Word(words) => ("word", words.join(", ")),
-        Kind::Matrix => ("matrix", parameter.range.words.to_owned()),
-        Kind::List => ("list", parameter.range.words.to_owned()),
-        Kind::Rule => ("rule", "any rule".to_owned()),
-        Kind::Function => ("function", "a function".to_owned()),
-    };
     entry.set_item("name", parameter.name)?;
     entry.set_item("about", parameter.about)?;
-    entry.set_item("kind", kind)?;
-    entry.set_item("range", range)?;
-    entry.set_item("required", parameter.default.is_none() && !parameter.optional)?;
+    entry.set_item("kind", parameter.kind.name())?;
+    entry.set_item("range", parameter.allowed().to_string())?;
+    entry.set_item("required", parameter.is_required())?;
     let default = parameter.default.and_then(Value::of_core);
     let default = default.map(|value| write_value(py, &value)).transpose()?;
     entry.set_item("default", default)?;
@@ -138,10 +118,8 @@ pub fn gate_codes(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
 /// The codes of `skipped` in the results of a record or a fleet: 0 is None.
 pub fn skip_codes(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     let codes = PyDict::new(py);
-    codes.set_item(0, py.None())?;
-    for reason in Skip::ALL {
-        codes.set_item(reason.code(), reason.word())?;
+    for (code, word) in FleetUpdate::codes() {
+        codes.set_item(code, word)?;
     }
-    codes.set_item(FleetUpdate::REFUSED, "refused")?;
     Ok(codes)
 }

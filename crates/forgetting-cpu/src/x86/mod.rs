@@ -30,7 +30,10 @@ pub struct Wide<R>(R);
 macro_rules! compile_levels {
     ($module:ident, $float:ident, $fused:ty, $wide:ty) => {
         mod $module {
-            use super::*;
+            use crate::fused::Fused;
+            use crate::x86::{Pair, Wide};
+            use core::arch::x86_64::*;
+            use forgetting_kernels::Kernel;
 
             #[target_feature(enable = "avx2,fma")]
             #[inline(never)]

@@ -72,7 +72,7 @@ pub use scratch::scratch;
 macro_rules! compile_portable {
     ($module:ident, $float:ident) => {
         mod $module {
-            use super::{Dispatch, Kernel};
+            use crate::kernel::dispatch::{Dispatch, Kernel};
             use crate::number::Real;
 
             struct Unit;

@@ -4,6 +4,7 @@ use super::streams::Streams;
 use crate::error::{check_shape, Error};
 use crate::number::{Array, Elements, Number, View};
 use forgetting::fleet::{Outputs, Samples};
+use forgetting::Skip;
 use std::borrow::Cow;
 
 /// What a sample of each stream did. An output that was not asked for is none.
@@ -28,6 +29,12 @@ impl FleetUpdate {
     pub const OUTPUTS: [&'static str; 3] = ["error", "leverage", "skipped"];
     /// The code of a stream that refused its sample.
     pub const REFUSED: u8 = forgetting::fleet::REFUSED;
+
+    /// All codes with their words, none where the sample was used.
+    pub fn codes() -> impl Iterator<Item = (u8, Option<&'static str>)> {
+        let reasons = Skip::ALL.iter().map(|reason| (reason.code(), Some(reason.word())));
+        [(0, None)].into_iter().chain(reasons).chain([(Self::REFUSED, Some("refused"))])
+    }
 }
 
 /// Takes a sample for each stream.

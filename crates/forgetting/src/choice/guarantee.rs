@@ -15,6 +15,16 @@ pub enum Claim {
     No,
 }
 
+impl core::fmt::Display for Claim {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Always => f.write_str("always"),
+            Self::If(condition) => write!(f, "if {condition}"),
+            Self::No => f.write_str("no"),
+        }
+    }
+}
+
 /// What a rule guarantees of the information F that it takes and of the covariance P.
 #[derive(Clone, Copy, Debug)]
 pub struct Guarantees {
@@ -24,6 +34,14 @@ pub struct Guarantees {
     pub bounded_above: Guarantee,
     /// A3: P is bounded below, for bounded regressors
     pub bounded_below: Guarantee,
+}
+
+impl Guarantees {
+    /// Each with its name, in every language.
+    pub fn named(&self) -> [(&'static str, Guarantee); 3] {
+        let Self { proper, bounded_above, bounded_below } = *self;
+        [("proper", proper), ("bounded_above", bounded_above), ("bounded_below", bounded_below)]
+    }
 }
 
 /// A claim and the settings that show it.

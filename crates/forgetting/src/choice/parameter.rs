@@ -24,6 +24,21 @@ pub enum Kind {
     Function,
 }
 
+impl Kind {
+    /// Its name, in every language.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Real => "real",
+            Self::Whole => "whole",
+            Self::Word(_) => "word",
+            Self::Matrix => "matrix",
+            Self::List => "list",
+            Self::Rule => "rule",
+            Self::Function => "function",
+        }
+    }
+}
+
 /// One parameter of a rule, a rate, a weighting or a gate.
 #[derive(Clone, Copy, Debug)]
 pub struct Parameter {
@@ -175,6 +190,16 @@ impl Parameter {
         Self { name, about, kind: Kind::Rule, range: Range::FINITE, default, optional: false }
     }
 
+    /// Whether a value must be given.
+    pub fn is_required(&self) -> bool {
+        self.default.is_none() && !self.optional
+    }
+
+    /// What is allowed, in words.
+    pub fn allowed(&self) -> Allowed<'_> {
+        Allowed(self)
+    }
+
     /// `value`, if it is in range.
     ///
     /// # Errors
@@ -259,5 +284,23 @@ impl Parameter {
             _ => None,
         }
         .ok_or(Error::value(self.name, f64::NAN, "one of its words"))
+    }
+}
+
+/// What a parameter allows; prints as words.
+#[derive(Clone, Copy, Debug)]
+pub struct Allowed<'a>(&'a Parameter);
+
+impl core::fmt::Display for Allowed<'_> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self.0.kind {
+            Kind::Word(words) => words.iter().enumerate().try_for_each(|(i, word)| {
+                f.write_str(if i == 0 { "" } else { ", " })?;
+                f.write_str(word)
+            }),
+            Kind::Rule => f.write_str("any rule"),
+            Kind::Function => f.write_str("a function"),
+            _ => f.write_str(self.0.range.words),
+        }
     }
 }

@@ -39,15 +39,32 @@ impl<M: Memory> Factor<M> {
         }
     }
 
-    /// P ← P + c·x·xᵀ with c ≥ 0 for n numbers `x`, which it uses up. O(n²).
+    /// P ← S·P·S with S = I but for `scale` in (0, 1] at parameter `i`. O(n). Its D stays at
+    /// [`Real::FLOOR`] where it would fall below.
+    pub fn shrink_one(&mut self, i: usize, scale: M::Real) {
+        let columns = self.columns.as_mut();
+        for k in 0..i {
+            columns[layout::place::<M::Real>(k, i)] /= scale;
+        }
+        for k in i + 1..self.memory.parameters() {
+            columns[layout::place::<M::Real>(i, k)] *= scale;
+        }
+        self.put_diagonal(i, self.diagonal.as_ref()[i] * scale * scale);
+    }
+
+    /// P ← P + c·x·xᵀ with c ≥ 0 for n numbers `x`, which it uses up. O(m²), m the place of the
+    /// last number that is not 0: columns of U after it stay as they are.
     ///
     /// Call [`Factor::reserve`] first, for all that one sample adds.
     #[inline]
     pub fn add_covariance(&mut self, x: &mut [M::Real], c: M::Real) {
-        functions::agee_turner(self.columns.as_mut(), self.diagonal.as_mut(), x, c);
+        if let Some(last) = x.iter().rposition(|&x| x != M::Real::ZERO) {
+            let (d, x) = (&mut self.diagonal.as_mut()[..=last], &mut x[..=last]);
+            functions::agee_turner(self.columns.as_mut(), d, x, c);
+        }
     }
 
-    /// P ← P + diag(`variances`), each ≥ 0. O(n³): one dyad per element that is not 0.
+    /// P ← P + diag(`variances`), each ≥ 0. O(n³/3): one dyad per element that is not 0.
     ///
     /// Call [`Factor::reserve`] first.
     pub fn add_diagonal(&mut self, variances: &[M::Real], work: &mut [M::Real]) {

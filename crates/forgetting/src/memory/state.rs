@@ -50,6 +50,19 @@ impl<T: Real> State<T> for () {
     fn visit(&mut self, _: &mut dyn Visitor<T>) {}
 }
 
+/// One that there may not be.
+impl<T: Real, S: State<T>> State<T> for Option<S> {
+    fn visit(&mut self, visitor: &mut dyn Visitor<T>) {
+        if let Some(state) = self {
+            state.visit(visitor);
+        }
+    }
+
+    fn is_sound(&self) -> bool {
+        self.as_ref().is_none_or(State::is_sound)
+    }
+}
+
 /// Whether this can be a forgetting factor.
 pub(crate) fn is_factor<T: Real>(lambda: T) -> bool {
     lambda > T::ZERO && lambda <= T::ONE

@@ -4,38 +4,42 @@
 //! P̄ = P + blkdiag((1/λ_b − 1) P_bb)        West & Harrison, discounting by component
 //! F_k = R − P̄⁻¹                            the same as Theorem 1 of GF-RLS has it; the form
 //!                                          used: P_bb = V diag(d) Vᵀ, one dyad for each v
+//! P̄ = P + (1/λ_bᶜ − 1) P_bb, b = k mod c   cyclic: one of the c blocks a sample, for c samples
 //! ```
 //!
 //! | symbol | name | range | default |
 //! |---|---|---|---|
 //! | n_b | blocks | sizes of consecutive blocks, whole numbers from 1 that sum to n, or one size for all | 1 |
 //! | λ_b | factors | (0, 1], one number a block or one for all | the forgetting factor λ_k |
+//! | | schedule | "every_sample" forgets all blocks at each sample, "cyclic" one block | "every_sample" |
 //!
 //! - Proper (A1): always.
 //! - P̄ bounded above without excitation (A2): no. In silence the variances of block b grow as
 //!   λ_b⁻ᵏ (windup).
 //! - P bounded below (A3): if λ_b ≤ λ_max < 1 and φ is bounded.
 //! - Cost: O(n³), one dyad for each parameter; O(p n²) with one block of all parameters, which is
-//!   `exponential`. State: P alone.
+//!   `exponential`; cyclic O((p + n_b) n²) for blocks of n_b. State: P, and whose turn it is.
 //! - Use it when parameters are known to drift at different rates. `multiple` drops what the
-//!   blocks know of each other and is rarely proper; this rule keeps it.
+//!   blocks know of each other and is rarely proper; this rule keeps it. Use the cyclic schedule
+//!   where n is large and λ_bᶜ is not small: in silence P is that of the other after each cycle,
+//!   exactly, and the same is guaranteed. k counts the samples used.
 //!
 //! Reference: M. West, J. Harrison, *Bayesian Forecasting and Dynamic Models*, 2nd edition,
 //! Springer, 1997, section 6.3.
 
+use super::block_root::BlockRoot;
 use super::blocks::Blocks;
+use super::cycle::{self, Cycle};
 use super::{Forgetting, Forgotten, Step};
+use crate::choice::guarantee::positive;
 use crate::choice::{
     About, Bounds, Constants, Guarantee, Guarantees, Input, Kind, Parameter, Range, Setting, Value,
     Values,
 };
 use crate::memory::state::{State, Visitor};
-use crate::covariance::Factor;
 use crate::error::Error;
 use crate::memory::Memory;
 use forgetting_kernels::Real;
-use core::ops::Range as Places;
-use forgetting_kernels::kernel::{functions, layout};
 
 const BLOCKS: Parameter = Parameter::elements(
     "blocks",
@@ -53,10 +57,14 @@ const FACTORS: Parameter = Parameter::elements(
 )
 .optional();
 
+const SCHEDULE: Parameter = cycle::schedule(
+    "when blocks are forgotten: all of them at each sample, or one block a sample, in O(n^2)",
+);
+
 /// The registry entry.
 pub const ABOUT: About = About {
     forgetting_factor: true,
-    cost: "O(n^3)",
+    cost: "O(n^3); cyclic O((p + largest block) n^2)",
     guarantees: Some(Guarantees {
         proper: Guarantee::ALWAYS,
         bounded_above: Guarantee::no(Setting::usual(Input::Fixed)),
@@ -65,7 +73,7 @@ pub const ABOUT: About = About {
             Setting::usual(Input::Exciting(1)).factor(1.0),
         ),
     }),
-    ..About::new(&[BLOCKS, FACTORS])
+    ..About::new(&[BLOCKS, FACTORS, SCHEDULE])
 };
 
 /// Forgets each block at its own rate; see [`self`](crate::rules::component).
@@ -75,23 +83,26 @@ pub struct Component<M: Memory> {
     blocks: Blocks<M>,
     /// λ_b for each block, where they were given
     forgetting_factors: Option<M::Vector>,
+    cyclic: bool,
 }
 
-/// Nothing that lasts: room for V and d of one block.
+/// Whose turn it is, if the blocks take turns; and room for the root of one, which does not last.
 #[derive(Clone, Debug)]
-pub struct BlockRoot<M: Memory> {
-    columns: M::Packed,
-    diagonal: M::Vector,
+pub struct Turns<M: Memory> {
+    cycle: Option<Cycle>,
+    root: BlockRoot<M>,
 }
 
-impl<M: Memory> State<M::Real> for BlockRoot<M> {
-    fn visit(&mut self, _: &mut dyn Visitor<M::Real>) {}
+impl<M: Memory> State<M::Real> for Turns<M> {
+    fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
+        self.cycle.visit(visitor);
+    }
 }
 
 impl<M: Memory> Component<M> {
     /// Each block at the common forgetting factor.
     pub fn new(memory: M, blocks: Blocks<M>) -> Self {
-        Self { memory, blocks, forgetting_factors: None }
+        Self { memory, blocks, forgetting_factors: None, cyclic: false }
     }
 
     /// Each block at a forgetting factor of its own, in place of the common one.
@@ -109,6 +120,12 @@ impl<M: Memory> Component<M> {
         Ok(self)
     }
 
+    /// The same with one block a sample.
+    #[must_use]
+    pub fn cyclic(self) -> Self {
+        Self { cyclic: true, ..self }
+    }
+
     /// λ_b
     #[inline]
     fn factor(&self, block: usize, common: M::Real) -> M::Real {
@@ -123,10 +140,12 @@ impl<M: Memory> Component<M> {
 }
 
 impl<M: Memory> Forgetting<M> for Component<M> {
-    type State = BlockRoot<M>;
+    type State = Turns<M>;
 
     fn configure(values: &dyn Values, memory: M) -> Result<Self, Error> {
+        let cyclic = cycle::is_cyclic(&SCHEDULE, values)?;
         let rule = Self::new(memory, Blocks::configure(&BLOCKS, values, memory)?);
+        let rule = Self { cyclic, ..rule };
         if values.get(FACTORS.name).is_none() {
             return Ok(rule);
         }
@@ -142,94 +161,68 @@ impl<M: Memory> Forgetting<M> for Component<M> {
             let columns = self.blocks.count();
             each(FACTORS.name, Value::Matrix { rows: 1, columns, elements: &elements });
         }
+        each(SCHEDULE.name, cycle::word(self.cyclic));
     }
 
-    fn start(&self, memory: M) -> BlockRoot<M> {
-        BlockRoot { columns: memory.packed(), diagonal: memory.vector() }
+    fn start(&self, memory: M) -> Turns<M> {
+        Turns { cycle: self.cyclic.then(Cycle::default), root: BlockRoot::new(memory) }
     }
 
     fn bounds(&self, constants: &Constants) -> Bounds {
         let common = M::Real::from_f64(constants.forgetting_factors.1);
         let factors = (0..self.blocks.count()).map(|b| self.factor(b, common).to_f64());
-        let below = constants.least_remembered(factors.fold(0.0, f64::max));
-        Bounds { below, above: None }
+        let largest = factors.fold(0.0, f64::max);
+        if !self.cyclic {
+            return Bounds { below: constants.least_remembered(largest), above: None };
+        }
+        // R grows by β a sample until it is a block's turn, which makes it λᶜ of what it was there
+        let count = self.blocks.count() as f64;
+        let (grown, kept) = (count * constants.regressor_bound, libm::pow(largest, count));
+        let after = (1.0 / constants.initial.0).max(kept * grown / (1.0 - kept));
+        Bounds { below: positive(1.0 / (grown + after)), above: None }
     }
 
     #[inline]
-    fn forget(&self, root: &mut BlockRoot<M>, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
+    fn forget(&self, turns: &mut Turns<M>, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         let (factor, common) = (step.factor, step.forgetting_factor);
-        let smallest = self.smallest(common);
-        if smallest >= M::Real::ONE {
-            return Ok(Forgotten::rank(0).with_factor(1.0));
-        }
-        if self.blocks.count() == 1 {
+        let (smallest, count) = (self.smallest(common), self.blocks.count());
+        if count == 1 {
             factor.scale(M::Real::ONE / smallest)?;
-            return Ok(Forgotten::rank(factor.parameters()).with_factor(smallest.to_f64()));
+            let rank = if smallest < M::Real::ONE { factor.parameters() } else { 0 };
+            return Ok(Forgotten::rank(rank).with_factor(smallest.to_f64()));
         }
+        let turn = turns.cycle.map(|cycle| cycle.turn(count));
+        let samples = if turn.is_some() { count } else { 1 };
+        let due = || {
+            let ranges = self.blocks.ranges().enumerate();
+            let due = ranges.filter(move |&(b, _)| turn.is_none_or(|turn| turn == b));
+            due.map(|(b, range)| (growth(self.factor(b, common), samples), range))
+                .filter(|(weight, _)| *weight > M::Real::ZERO)
+        };
         let variances = &mut step.work.first.as_mut()[..factor.parameters()];
         factor.variances(variances);
         let (mut added, mut rank) = (M::Real::ZERO, 0);
-        for (b, range) in self.blocks.ranges().enumerate() {
-            let weight = growth(self.factor(b, common));
-            if weight > M::Real::ZERO {
-                rank += range.len();
-                added = variances[range].iter().fold(added, |sum, &v| weight.mul_add(v, sum));
-            }
+        for (weight, range) in due() {
+            rank += range.len();
+            added = variances[range].iter().fold(added, |sum, &v| weight.mul_add(v, sum));
         }
         factor.reserve(M::Real::ONE, added)?;
-        for (b, range) in self.blocks.ranges().enumerate() {
-            let weight = growth(self.factor(b, common));
-            if weight > M::Real::ZERO {
-                root.compute(factor, range.clone(), step.work.gain.as_mut());
-                root.add_to(factor, range, weight, step.work.gain.as_mut());
-            }
+        for (weight, range) in due() {
+            turns.root.compute(factor, range.clone(), variances, step.work.gain.as_mut());
+            turns.root.add_to(factor, range, weight, step.work.gain.as_mut());
+        }
+        if let Some(cycle) = &mut turns.cycle {
+            cycle.pass(count);
         }
         Ok(Forgotten::rank(rank).with_factor(smallest.to_f64()))
     }
 }
 
-/// 1/λ − 1
+/// 1/λᶜ − 1 for c samples.
 #[inline]
-fn growth<T: Real>(lambda: T) -> T {
-    (T::ONE - lambda) / lambda
-}
-
-impl<M: Memory> BlockRoot<M> {
-    /// P_bb = V diag(d) Vᵀ: the block's own triangle of U, and a dyad for each later column.
-    fn compute(&mut self, factor: &Factor<M>, range: Places<usize>, x: &mut [M::Real]) {
-        let (size, start) = (range.len(), range.start);
-        let columns = &mut self.columns.as_mut()[..layout::length::<M::Real>(size)];
-        let diagonal = &mut self.diagonal.as_mut()[..size];
-        diagonal.copy_from_slice(&factor.diagonal_elements()[range.clone()]);
-        for j in 0..size {
-            for i in 0..j {
-                columns[layout::place::<M::Real>(i, j)] = factor.unit(start + i, start + j);
-            }
-        }
-        for k in range.end..factor.parameters() {
-            let x = &mut x[..size];
-            for (x, i) in x.iter_mut().zip(range.clone()) {
-                *x = factor.unit(i, k);
-            }
-            functions::agee_turner(columns, diagonal, x, factor.diagonal_elements()[k]);
-        }
-    }
-
-    /// P ← P + `weight`·P_bb
-    fn add_to(
-        &self,
-        factor: &mut Factor<M>,
-        range: Places<usize>,
-        weight: M::Real,
-        direction: &mut [M::Real],
-    ) {
-        for (j, &d) in self.diagonal.as_ref()[..range.len()].iter().enumerate() {
-            direction.fill(M::Real::ZERO);
-            layout::get_column(self.columns.as_ref(), j, &mut direction[range.start..]);
-            direction[range.start + j] = M::Real::ONE;
-            factor.add_covariance(direction, weight * d);
-        }
-    }
+fn growth<T: Real>(lambda: T, samples: usize) -> T {
+    let kept = (1..samples).fold(lambda, |product, _| product * lambda);
+    (T::ONE - kept) / kept
 }
 
 #[cfg(test)]
@@ -258,6 +251,21 @@ mod tests {
         check(&[2, 1], &[0.9, 0.5]);
         check(&[1, 2], &[1.0, 0.5]);
         check(&[3], &[0.7]);
+    }
+
+    #[test]
+    fn a_cycle_in_silence_is_as_many_samples() {
+        let (mut p, silence) = (covariance(), Dense::new(1, &[0.0; 3]));
+        let m = memory(&silence, 1);
+        let rule = Component::new(m, Blocks::new(m, &[2, 1]).unwrap());
+        let (all, turns) = (rule.clone(), rule.cyclic());
+        let mut expected = p.clone();
+        let mut cycle = turns.start(m);
+        for _ in 0..2 {
+            expected = forget(&all, &mut all.start(m), &expected, &silence, 0.8).covariance;
+            p = forget(&turns, &mut cycle, &p, &silence, 0.8).covariance;
+        }
+        assert!(p.distance(&expected) < 1e-14);
     }
 
     #[test]

@@ -29,8 +29,8 @@ use super::{Forgetting, Forgotten, Step};
 use crate::choice::{
     About, Guarantee, Guarantees, Input, Kind, Parameter, Range, Setting, Value, Values,
 };
+use crate::rules::cycle::Cycle;
 use crate::rules::root::Root;
-use crate::memory::state::{State, Visitor};
 use crate::error::Error;
 use crate::memory::Memory;
 use forgetting_kernels::Real;
@@ -69,18 +69,6 @@ pub struct CyclicResetting<M: Memory> {
     information: Root<M>,
 }
 
-/// The place in the cycle.
-#[derive(Clone, Copy, Debug)]
-pub struct Cycle {
-    position: u64,
-}
-
-impl<T: Real> State<T> for Cycle {
-    fn visit(&mut self, visitor: &mut dyn Visitor<T>) {
-        visitor.whole(&mut self.position);
-    }
-}
-
 impl<M: Memory> CyclicResetting<M> {
     /// Towards the information matrix with this root.
     pub fn new(information: Root<M>) -> Self {
@@ -100,7 +88,7 @@ impl<M: Memory> Forgetting<M> for CyclicResetting<M> {
     }
 
     fn start(&self, _: M) -> Cycle {
-        Cycle { position: 0 }
+        Cycle::default()
     }
 
     fn is_bounded(&self) -> bool {
@@ -117,9 +105,8 @@ impl<M: Memory> Forgetting<M> for CyclicResetting<M> {
         if rank == 0 {
             return Ok(Forgotten::rank(if lambda < M::Real::ONE { n } else { 0 }));
         }
-        // a position out of the cycle can only come from a saved state that was tampered with
-        let j = (cycle.position % rank as u64) as usize;
-        cycle.position = ((j + 1) % rank) as u64;
+        let j = cycle.turn(rank);
+        cycle.pass(rank);
         if lambda >= M::Real::ONE {
             return Ok(Forgotten::rank(0));
         }
@@ -152,14 +139,14 @@ mod tests {
     fn one_cycle_without_data_is_exact() {
         let (mut p, silence) = (covariance(), Dense::new(1, &[0.0; 3]));
         let rule = CyclicResetting::configure(&Defaults, memory(&silence, 1)).unwrap();
-        let mut cycle = Cycle { position: 0 };
+        let mut cycle = Cycle::default();
         let kept = 0.9f64.powi(3);
         let expected = kept * p.inverse() + (1.0 - kept) * 0.01 * Dense::identity(3);
         for _ in 0..3 {
             p = forget(&rule, &mut cycle, &p, &silence, 0.9).covariance;
         }
         assert!(p.inverse().distance(&expected) < 1e-14);
-        assert_eq!(cycle.position, 0);
+        assert_eq!(cycle.turn(3), 0);
     }
 
     #[test]

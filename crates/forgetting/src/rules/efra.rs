@@ -24,7 +24,8 @@
 //! - P̄ bounded above without excitation (A2): if λ_k ≥ λ_min > 0, by the larger of P₀ and
 //!   b + (1 + g)²/(4d); by σ_max where the published map applies. Silence takes P to σ_max I.
 //! - P bounded below (A3): if λ_k ≤ λ_max < 1 and φ is bounded.
-//! - Cost: O(n³). State: P, n eigenvectors and n numbers.
+//! - Cost: O(n³). State: P, n eigenvectors and 2 n numbers. The eigenvectors follow P from sample to
+//!   sample; after one that a gate freezes they are computed anew.
 //! - Use it for one output, where P must stay below a bound that is stated beforehand, with
 //!   P₀ at or below it.
 //!
@@ -42,6 +43,7 @@ use crate::covariance::spectrum::Spectrum;
 use crate::memory::state::{State, Visitor, is_finite};
 use crate::error::Error;
 use crate::memory::Memory;
+use forgetting_kernels::kernel::functions::{add_scaled, dot};
 use forgetting_kernels::Real;
 
 const GAIN: Parameter =
@@ -90,8 +92,10 @@ pub struct Efra<M: Memory> {
 #[derive(Clone, Debug)]
 pub struct Pending<M: Memory> {
     spectrum: Spectrum<M>,
-    /// the weight of each eigenvector
+    /// the weight w_i of each eigenvector
     added: M::Vector,
+    /// the components z_i of what was measured along the eigenvectors
+    measured: M::Vector,
 }
 
 impl<M: Memory> Efra<M> {
@@ -115,13 +119,14 @@ impl<M: Memory> Efra<M> {
     /// Takes note of what this sample adds to P, and gives it its noise.
     fn weigh(&self, state: &mut Pending<M>, step: Step<'_, '_, M>) {
         let (one, lambda) = (M::Real::ONE, step.forgetting_factor);
-        let Pending { spectrum, added } = state;
+        let Pending { spectrum, added, measured } = state;
         added.as_mut().fill(M::Real::ZERO);
         if lambda >= one {
+            spectrum.discard();
             return;
         }
         let growth = (one - lambda) / lambda;
-        spectrum.renew(step.factor);
+        spectrum.follow(step.factor);
         for (added, &r) in added.as_mut().iter_mut().zip(spectrum.information()) {
             let p = one / r;
             *added = (growth * p + self.increase - self.saturation * p * p).max(M::Real::ZERO);
@@ -131,6 +136,7 @@ impl<M: Memory> Efra<M> {
         if noise != one {
             step.sample.scale(one / noise.sqrt());
         }
+        spectrum.project(step.sample.row(0), measured.as_mut());
     }
 
     /// Refuses a forgetting factor so small that P could leave the range at the next sample.
@@ -162,7 +168,11 @@ impl<M: Memory> Forgetting<M> for Efra<M> {
     }
 
     fn start(&self, memory: M) -> Pending<M> {
-        Pending { spectrum: Spectrum::new(memory), added: memory.vector() }
+        Pending {
+            spectrum: Spectrum::new(memory),
+            added: memory.vector(),
+            measured: memory.vector(),
+        }
     }
 
     fn is_bounded(&self) -> bool {
@@ -175,6 +185,11 @@ impl<M: Memory> Forgetting<M> for Efra<M> {
         Bounds { below: None, above: positive(self.increase.to_f64() + grown) }
     }
 
+    /// P changes, but what is still to be added does not.
+    fn follow(&self, state: &mut Pending<M>, _: Step<'_, '_, M>) {
+        state.spectrum.discard();
+    }
+
     /// What is still to be added belongs to eigenvectors that are no longer orthogonal: it is let go.
     fn change_units(&self, state: &mut Pending<M>, _: &[M::Real]) {
         state.spectrum.discard();
@@ -183,6 +198,7 @@ impl<M: Memory> Forgetting<M> for Efra<M> {
 
     fn restart(&self, state: &mut Pending<M>, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         self.check_growth(step.forgetting_factor, step.factor.parameters())?;
+        state.spectrum.discard();
         self.weigh(state, step);
         Ok(Forgotten::rank(0))
     }
@@ -202,7 +218,7 @@ impl<M: Memory> Forgetting<M> for Efra<M> {
 impl<M: Memory> Pending<M> {
     /// Adds to P what the last sample adds; returns the number of directions.
     fn add(&mut self, step: &mut Step<'_, '_, M>) -> Result<usize, Error> {
-        let Self { spectrum, added } = self;
+        let Self { spectrum, added, .. } = self;
         let total = added.as_ref().iter().fold(M::Real::ZERO, |sum, &x| sum + x);
         let mut rank = 0;
         if total > M::Real::ZERO {
@@ -215,7 +231,33 @@ impl<M: Memory> Pending<M> {
                 }
             }
         }
+        if self.spectrum.is_known() {
+            self.follow(step.work.gain.as_mut());
+        }
         Ok(rank)
+    }
+
+    /// The spectrum of P after it was measured and added to; uses n numbers `row`.
+    ///
+    /// What was measured before the addition is, after it, a measurement of another row:
+    /// (P₊ + Σ w_i v_i v_iᵀ)⁻¹ = Σ v_i v_iᵀ/(p_i + w_i) + uᵀu with
+    /// u = Σ z_i p_i/(p_i + w_i) v_i/√(1 + Σ z_i² p_i w_i/(p_i + w_i)), by the matrix inversion
+    /// lemma: P₊ = P − P z zᵀ P/(1 + zᵀ P z).
+    fn follow(&mut self, row: &mut [M::Real]) {
+        let Self { spectrum, added, measured } = self;
+        let (one, mut variance) = (M::Real::ONE, M::Real::ONE);
+        for (i, (&w, z)) in added.as_ref().iter().zip(measured.as_mut()).enumerate() {
+            let p = one / spectrum.information()[i];
+            let kept = p / (p + w);
+            variance = (*z * *z).mul_add(kept * w, variance);
+            *z *= kept;
+            spectrum.set_information(i, one / (p + w));
+        }
+        row.fill(M::Real::ZERO);
+        for (i, &z) in measured.as_ref().iter().enumerate() {
+            add_scaled(row, z / variance.sqrt(), spectrum.vector(i));
+        }
+        spectrum.learn(row);
     }
 }
 
@@ -223,14 +265,16 @@ impl<M: Memory> State<M::Real> for Pending<M> {
     fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
         self.spectrum.visit(visitor);
         visitor.reals(self.added.as_mut());
+        visitor.reals(self.measured.as_mut());
     }
 
     fn is_sound(&self) -> bool {
-        let added = self.added.as_ref();
+        let (added, measured) = (self.added.as_ref(), self.measured.as_ref());
         let total = added.iter().fold(M::Real::ZERO, |sum, &x| sum + x);
         is_finite(self)
             && added.iter().all(|&x| x >= M::Real::ZERO)
             && total <= M::Real::CEILING
+            && dot(measured, measured) <= M::Real::CEILING
             && (total == M::Real::ZERO || self.spectrum.is_spectrum())
     }
 }

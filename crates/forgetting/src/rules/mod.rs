@@ -6,8 +6,11 @@
 //! command line follow.
 
 mod along_sample;
+mod block_root;
 mod blocks;
 pub mod criterion;
+mod cycle;
+mod ellipsoid;
 mod root;
 
 pub use crate::sample::Skip;

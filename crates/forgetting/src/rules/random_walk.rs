@@ -2,7 +2,11 @@
 //!
 //! ```text
 //! P̄ = P + Q                                prediction of the Kalman filter with transition I
-//! P̄ = (1 − λ_max(Q)/b) P + Q               where a bound b is given
+//! P̄ = κ P + Q,  κ = 1 − λ_max(Q)/b         where a bound b is given
+//! P̄ = P + r w_jᵀ w_j,  j = k mod r         cyclic: Q = Σ_j w_jᵀ w_j, one of its r dyads a sample,
+//!                                          for r samples
+//! P̄ = S_j P S_j + (1 − κʳ)/(1 − κ) w_jᵀ w_j    the same with a bound, for a diagonal Q:
+//!                                          S_j = I but for κ^(r/2) at parameter j
 //! F_k = R − P̄⁻¹                            the same as Theorem 1 of GF-RLS has it; the form used: one
 //!                                          dyad for each row of a root of Q, and for Q = c·I with
 //!                                          n ≤ 10 one pass of Gram and Schmidt over [U, I]
@@ -12,27 +16,40 @@
 //! |---|---|---|---|
 //! | Q | process_noise | a number c ≥ 0 (c·I), n numbers ≥ 0 or an n x n positive semidefinite matrix | 1e-4 |
 //! | b | bound | (0, ∞), above process_noise, or not given | not given |
+//! | | schedule | "every_sample" adds Q at each sample, "cyclic" one dyad of it | "every_sample" |
 //!
-//! - Proper (A1): without a bound; with one, while P ≤ Q b/λ_max(Q), which for Q = c·I is P ≤ b·I.
-//! - P̄ bounded above without excitation (A2): with a bound b, since P ≤ b·I makes P̄ ≤ b·I. Without one
+//! - Proper (A1): if there is no bound; with one, while P ≤ Q b/λ_max(Q), which for Q = c·I is P ≤ b·I,
+//!   but for the cyclic schedule, which draws each variance towards its bound in its turn.
+//! - P̄ bounded above without excitation (A2): if a bound b is given: P ≤ b·I makes P̄ ≤ b·I. Without one
 //!   P grows by Q at each sample that brings no information, linearly.
 //! - P bounded below (A3): if Q > 0 and φ is bounded.
 //! - Cost: O((p + r) n²), r the rank of Q; O(n³) for a full one, at n ≤ 10 with Q = c·I about twice that
-//!   of `exponential`. State: P alone.
+//!   of `exponential`; cyclic O((p + 1) n²). State: P, and whose turn it is.
 //! - Q is per sample and in units of P: the variance by which θ moves, over the variance of the
 //!   measurement noise (Γ).
 //! - Use it when that ratio is known: the estimate is then the optimal one. With P₀ that follows the
-//!   data, Q counts in units of the root mean square of each regressor.
+//!   data, Q counts in units of the root mean square of each regressor. Use the cyclic schedule where n
+//!   is large and θ moves little in n samples: without data a whole cycle adds what r samples add, and
+//!   within one P is off by less than that.
+//!
+//! A diagonal Q is taken in the order of its elements, a full one in the order of the pivots of
+//! Cholesky's factorization with diagonal pivots. k counts the samples used.
 //!
 //! Reference: R. E. Kalman, *A new approach to linear filtering and prediction problems*, Journal
-//! of Basic Engineering 82, 1960; as forgetting, GF-RLS, Theorem 1.
+//! of Basic Engineering 82, 1960; as forgetting, GF-RLS, Theorem 1. The cyclic schedule is that filter
+//! for steps that come in turns; one direction a sample is from B. Lai, D. S. Bernstein,
+//! *Exponential resetting and cyclic resetting recursive least squares*, IEEE Control Systems
+//! Letters 7, 2023.
 
 use super::{Forgetting, Forgotten, Step};
 use crate::choice::{
     About, Bounds, Constants, Guarantee, Guarantees, Input, Kind, Parameter, Range, Setting, Value,
     Values,
 };
+use crate::covariance::Factor;
+use crate::rules::cycle::{self, Cycle};
 use crate::rules::root::Root;
+use crate::sample::Work;
 use crate::error::Error;
 use crate::memory::Memory;
 use crate::choice::guarantee::positive;
@@ -58,13 +75,18 @@ const BOUND: Parameter = Parameter {
     optional: true,
 };
 
+const SCHEDULE: Parameter = cycle::schedule(
+    "when process_noise is added: all of it at each sample, or one direction a sample, in O(n^2)",
+);
+
 /// The registry entry.
 pub const ABOUT: About = About {
-    cost: "O((p + r) n^2), r = rank of process_noise",
+    cost: "O((p + r) n^2), r = rank of process_noise; cyclic O((p + 1) n^2)",
     guarantees: Some(Guarantees {
         proper: Guarantee::when(
-            "no bound, or P <= bound",
-            Setting::usual(Input::Exciting(1)).with(&[("bound", Value::Real(0.5))]),
+            "no bound, or P <= bound and not cyclic",
+            Setting::usual(Input::Exciting(1))
+                .with(&[("bound", Value::Real(0.5)), ("process_noise", Value::Real(0.1))]),
         ),
         bounded_above: Guarantee::when(
             "a bound is given",
@@ -75,7 +97,7 @@ pub const ABOUT: About = About {
             Setting::usual(Input::Exciting(1)).with(&[("process_noise", Value::Real(0.0))]),
         ),
     }),
-    ..About::new(&[PROCESS_NOISE, BOUND])
+    ..About::new(&[PROCESS_NOISE, BOUND, SCHEDULE])
 };
 
 /// Adds Q at each sample; see [`self`](crate::rules::random_walk).
@@ -88,6 +110,16 @@ pub struct RandomWalk<M: Memory> {
     largest: M::Real,
     /// 1/b; 0 without a bound
     per_bound: M::Real,
+    turns: Option<Turns<M::Real>>,
+}
+
+/// What a turn of a cycle does.
+#[derive(Clone, Copy, Debug)]
+struct Turns<T> {
+    /// κ^(r/2)
+    scale: T,
+    /// (1 − κʳ)/(1 − κ), r without a bound
+    samples: T,
 }
 
 impl<M: Memory> RandomWalk<M> {
@@ -95,7 +127,7 @@ impl<M: Memory> RandomWalk<M> {
     pub fn new(process_noise: Root<M>) -> Self {
         let trace = process_noise.rows().fold(M::Real::ZERO, |sum, row| sum + dot(row, row));
         let (_, largest) = process_noise.extremes();
-        Self { process_noise, trace, bound: None, largest, per_bound: M::Real::ZERO }
+        Self { process_noise, trace, bound: None, largest, per_bound: M::Real::ZERO, turns: None }
     }
 
     /// With steps of the covariance `process_noise`·I and P bounded by `bound`·I.
@@ -114,16 +146,65 @@ impl<M: Memory> RandomWalk<M> {
         }
         Ok(Self { bound: Some(bound), per_bound: M::Real::ONE / bound, ..self })
     }
+
+    /// The same with one direction of the process noise a sample, in O(n²).
+    ///
+    /// # Errors
+    /// [`Error::Value`] names the bound where there is one and the process noise is a full matrix.
+    pub fn cyclic(self) -> Result<Self, Error> {
+        let rank = self.process_noise.rank() as f64;
+        let Some(bound) = self.bound.map(Real::to_f64) else {
+            let turns = Turns { scale: M::Real::ONE, samples: M::Real::from_f64(rank) };
+            return Ok(Self { turns: Some(turns), ..self });
+        };
+        if !self.process_noise.is_diagonal() {
+            let allowed = "not given where a full process_noise is added in cycles";
+            return Err(Error::value(BOUND.name, bound, allowed));
+        }
+        let share = self.largest.to_f64() / bound;
+        let logarithm = rank * libm::log1p(-share);
+        let samples = if share > 0.0 { -libm::expm1(logarithm) / share } else { rank };
+        let (scale, samples) = (libm::exp(0.5 * logarithm), M::Real::from_f64(samples));
+        let scale = M::Real::from_f64(scale).max(M::Real::EPSILON);
+        Ok(Self { turns: Some(Turns { scale, samples }), ..self })
+    }
+
+    /// P ← P + c·wᵀw for row `j` of the root.
+    #[inline(always)]
+    fn add(&self, j: usize, c: M::Real, factor: &mut Factor<M>, work: &mut Work<M>) {
+        let direction = &mut work.first.as_mut()[..factor.parameters()];
+        direction.copy_from_slice(self.process_noise.row(j));
+        factor.add_covariance(direction, c);
+    }
+
+    /// What row `j` of the root is to add in its turn.
+    #[inline]
+    fn take_turn(&self, j: usize, turns: Turns<M::Real>, step: Step<'_, '_, M>) -> Result<(), Error> {
+        let row = self.process_noise.row(j);
+        step.factor.reserve(M::Real::ONE, turns.samples * dot(row, row))?;
+        if turns.scale < M::Real::ONE {
+            if let Some(parameter) = row.iter().position(|&x| x > M::Real::ZERO) {
+                step.factor.shrink_one(parameter, turns.scale);
+            }
+        }
+        self.add(j, turns.samples, step.factor, step.work);
+        Ok(())
+    }
 }
 
 impl<M: Memory> Forgetting<M> for RandomWalk<M> {
-    type State = ();
+    /// Whose turn it is, if they take turns.
+    type State = Option<Cycle>;
 
     fn configure(values: &dyn Values, memory: M) -> Result<Self, Error> {
-        let rule = Self::new(Root::configure(&PROCESS_NOISE, values, memory)?);
-        match values.get(BOUND.name) {
-            None => Ok(rule),
-            Some(_) => rule.with_bound(BOUND.number(values)?),
+        let mut rule = Self::new(Root::configure(&PROCESS_NOISE, values, memory)?);
+        if values.get(BOUND.name).is_some() {
+            rule = rule.with_bound(BOUND.number(values)?)?;
+        }
+        if cycle::is_cyclic(&SCHEDULE, values)? {
+            rule.cyclic()
+        } else {
+            Ok(rule)
         }
     }
 
@@ -132,18 +213,28 @@ impl<M: Memory> Forgetting<M> for RandomWalk<M> {
         if let Some(bound) = self.bound {
             each(BOUND.name, Value::Real(bound.to_f64()));
         }
+        each(SCHEDULE.name, cycle::word(self.turns.is_some()));
     }
 
     fn is_bounded(&self) -> bool {
         self.bound.is_some()
     }
 
-    fn start(&self, _: M) {}
+    fn start(&self, _: M) -> Option<Cycle> {
+        self.turns.map(|_| Cycle::default())
+    }
 
     fn bounds(&self, constants: &Constants) -> Bounds {
-        let (least, _) = self.process_noise.extremes();
+        let least = self.process_noise.extremes().0.to_f64();
         let above = self.bound.and_then(|bound| positive(bound.to_f64()));
-        Bounds { below: constants.least_after(least.to_f64()), above }
+        let Some(turns) = self.turns else {
+            return Bounds { below: constants.least_after(least), above };
+        };
+        // between two of its turns R grows by β a sample, in each of orthogonal directions
+        let grown = self.process_noise.rank() as f64 * constants.regressor_bound;
+        let added = (turns.samples.to_f64() * least).min(constants.initial.0);
+        let below = positive(1.0 / (grown + 1.0 / added));
+        Bounds { below: below.filter(|_| self.process_noise.is_diagonal()), above }
     }
 
     /// A walk, where every parameter walks alike and there are few.
@@ -152,21 +243,30 @@ impl<M: Memory> Forgetting<M> for RandomWalk<M> {
         let noise = self.process_noise.scalar_given()?;
         let few = self.process_noise.parameters() <= FEW;
         let walks = noise >= M::Real::FLOOR || (noise > M::Real::ZERO && self.bound.is_none());
-        (few && walks).then_some(Form::Walk { noise, per_bound: self.per_bound })
+        let every_sample = self.turns.is_none();
+        (few && walks && every_sample).then_some(Form::Walk { noise, per_bound: self.per_bound })
     }
 
     #[inline]
-    fn forget(&self, (): &mut (), step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
+    fn forget(
+        &self,
+        cycle: &mut Option<Cycle>,
+        step: Step<'_, '_, M>,
+    ) -> Result<Forgotten, Error> {
+        let rank = self.process_noise.rank();
+        if let (Some(turns), Some(cycle), 1..) = (self.turns, cycle, rank) {
+            self.take_turn(cycle.turn(rank), turns, step)?;
+            cycle.pass(rank);
+            return Ok(Forgotten::rank(1).with_factor(1.0));
+        }
         step.factor.reserve(M::Real::ONE, self.trace)?;
         if self.bound.is_some() {
             step.factor.shrink(shrink(self.largest, self.per_bound));
         }
-        let direction = &mut step.work.first.as_mut()[..step.factor.parameters()];
-        for row in self.process_noise.rows() {
-            direction.copy_from_slice(row);
-            step.factor.add_covariance(direction, M::Real::ONE);
+        for j in 0..rank {
+            self.add(j, M::Real::ONE, step.factor, step.work);
         }
-        Ok(Forgotten::rank(self.process_noise.rank()).with_factor(1.0))
+        Ok(Forgotten::rank(rank).with_factor(1.0))
     }
 }
 
@@ -180,7 +280,7 @@ mod tests {
     fn adds_the_covariance_of_a_step() {
         let (p, phi) = (covariance(), Dense::new(1, &[0.8, -0.2, 1.1]));
         let rule = RandomWalk::configure(&Defaults, memory(&phi, 1)).unwrap();
-        let outcome = forget(&rule, &mut (), &p, &phi, 0.5);
+        let outcome = forget(&rule, &mut None, &p, &phi, 0.5);
         let expected = p + 1e-4 * Dense::identity(3);
         assert!(outcome.covariance.distance(&expected) < 1e-15);
     }
@@ -189,9 +289,51 @@ mod tests {
     fn a_bound_draws_the_covariance_towards_it() {
         let (p, phi) = (covariance(), Dense::new(1, &[0.8, -0.2, 1.1]));
         let rule = RandomWalk::bounded(0.5, 4.0, memory(&phi, 1)).unwrap();
-        let outcome = forget(&rule, &mut (), &p, &phi, 0.5);
+        let outcome = forget(&rule, &mut None, &p, &phi, 0.5);
         let expected = 0.875 * p + 0.5 * Dense::identity(3);
         assert!(outcome.covariance.distance(&expected) < 1e-14);
+    }
+
+    /// A cycle without data is as many samples of the other schedule: of all of P without a bound, of
+    /// the variances with one.
+    #[test]
+    fn a_cycle_in_silence_is_as_many_samples() {
+        let (start, silence) = (covariance(), Dense::new(1, &[0.0; 3]));
+        let m = memory(&silence, 1);
+        let noise = Root::scalar(&PROCESS_NOISE, 0.3, m).unwrap();
+        for all in [RandomWalk::new(noise), RandomWalk::bounded(0.3, 9.0, m).unwrap()] {
+            let turns = all.clone().cyclic().unwrap();
+            let (mut p, mut expected, mut cycle) = (start.clone(), start.clone(), turns.start(m));
+            for _ in 0..3 {
+                p = forget(&turns, &mut cycle, &p, &silence, 0.5).covariance;
+                expected = forget(&all, &mut None, &expected, &silence, 0.5).covariance;
+            }
+            for k in (0..9).filter(|k| all.bound.is_none() || k % 4 == 0) {
+                assert!((p.elements[k] - expected.elements[k]).abs() < 1e-14, "{k}");
+            }
+        }
+    }
+
+    #[test]
+    fn cycles_of_a_full_matrix_have_no_bound() {
+        let m = memory(&Dense::new(1, &[0.0; 2]), 1);
+        let full = Dense::new(2, &[2.0, 1.0, 1.0, 2.0]);
+        let elements = |k: usize| full.elements[k];
+        struct Full<'a>(&'a dyn Fn(usize) -> f64);
+        impl Values for Full<'_> {
+            fn get(&self, name: &str) -> Option<Value<'_>> {
+                match name {
+                    "process_noise" => {
+                        Some(Value::Matrix { rows: 2, columns: 2, elements: self.0 })
+                    }
+                    "bound" => Some(Value::Real(9.0)),
+                    "schedule" => Some(Value::Word("cyclic")),
+                    _ => None,
+                }
+            }
+        }
+        let refused = RandomWalk::configure(&Full(&elements), m).unwrap_err();
+        assert!(matches!(refused, Error::Value { parameter: "bound", .. }));
     }
 
     #[test]

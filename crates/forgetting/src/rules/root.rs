@@ -114,6 +114,11 @@ impl<M: Memory> Root<M> {
         self.rows.as_ref()[..self.rank * n].chunks_exact(n)
     }
 
+    /// Whether it was given as a number or as a diagonal.
+    pub fn is_diagonal(&self) -> bool {
+        self.form != Form::Dense
+    }
+
     /// n
     pub fn parameters(&self) -> usize {
         self.memory.parameters()

@@ -101,6 +101,11 @@ impl<M: Memory> Spectrum<M> {
         self.age = 0;
     }
 
+    /// Whether it is that of a P: it was computed, and not discarded since.
+    pub fn is_known(&self) -> bool {
+        self.age > 0
+    }
+
     /// φ V: the components of the n numbers `row` along the eigenvectors.
     pub fn project(&self, row: &[M::Real], components: &mut [M::Real]) {
         let n = self.memory.parameters();
