@@ -1,8 +1,8 @@
 """Small records of the kinds that people have, each with its right value.
 
 The files lie beside the repository (or in FORGETTING_SHARED); without them these tests are skipped,
-and `test_text.py` and `test_clock_kinds.py` hold others of the same kinds. Right values come from the
-construction of the files, exact fractions or least squares.
+and `test_text.py` and `test_clock_kinds.py` hold others of the same kinds. Right values come from
+the construction of the files, exact fractions or least squares.
 """
 
 from __future__ import annotations

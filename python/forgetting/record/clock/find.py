@@ -113,9 +113,9 @@ def may_be_time(column: pd.Series, name: str, first: bool, units: Mapping[str, s
         return bool(len(known)) and looks_like_time(known.iloc[0])
     if not pd.api.types.is_numeric_dtype(column) or column.dtype.kind not in "fiu":
         return pd.api.types.is_datetime64_any_dtype(column) or column.dtype.kind == "m"
-    hinted = sounds_like_time(name)
-    timed = unit_of(name, units.get(name)) is not None and (first or hinted)
-    return hinted or timed or (first and is_date(column))
+    timed = unit_of(name, units.get(name)) is not None
+    hinted = sounds_like_time(name) and (timed or name not in units)
+    return hinted or (first and timed) or (first and is_date(column))
 
 
 def looks_like_time(cell: object) -> bool:

@@ -16,7 +16,6 @@ HMS = re.compile(r"[+-]?(\d+\s*d(ays?)?,?\s*)?\d+:\d{1,2}(:\d{1,2}([.,]\d*)?|[.,
 TWELVE = re.compile(r"\d{1,2}:\d{2}(:\d{2}([.,]\d*)?)?\s*[AaPp]\.?[Mm]\.?$")
 ZONE = r"\s+\(?(?:UTC|GMT|[A-Z]{2,4}T|[A-Z]{3,4})\)?$"
 ORDER = r"^(\d{1,2})[-/. ](\d{1,2})[-/. ]\d{2,4}"
-MONTHS = re.compile(r"[^\W\d_]{3,}")
 
 
 def from_text(column: pd.Series) -> Times | None:
@@ -36,7 +35,7 @@ def from_text(column: pd.Series) -> Times | None:
     if TWELVE.match(first):
         parsed = attempt(lambda: pd.to_datetime("2000-01-01 " + text, format="mixed"))
         return None if parsed is None else Times(since_midnight(parsed), "times of day", 1.0, True)
-    if known.str.contains(ZONE).all() and not MONTHS.fullmatch(first):
+    if re.search(ZONE, first) and known.str.contains(ZONE).all():
         text = text.str.replace(ZONE, "", regex=True)
     return iso(text) or by_order(text)
 

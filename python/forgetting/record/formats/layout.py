@@ -131,7 +131,7 @@ def named(rows: Sequence[list[str] | None], header: list[int], first: int, width
         row = rows[number] or []
         if not units and unit_like(row):
             units = {i: cells.bare(cell) for i, cell in enumerate(row) if cells.bare(cell)}
-            spare -= 1
+            spare -= bool(units)
     return Layout(padded(names, width), units, header[place], first, spare)
 
 
