@@ -7,6 +7,7 @@ import datetime
 import gzip
 import lzma
 import os
+import struct
 import zipfile
 
 import numpy as np
@@ -188,6 +189,36 @@ def test_mdf(tmp_path, frame):
     assert record.found.units == {"time": "s", "u": "V"}
 
 
+def ulog(u, y, topics=("motor",)):
+    """A ULog file, message by message, of numbers every 20 ms."""
+
+    def message(kind, body):
+        return struct.pack("<HB", len(body), ord(kind)) + body
+
+    made = b"ULog\x01\x12\x35\x01" + struct.pack("<Q", 0)
+    made += message("F", b"motor:uint64_t timestamp;double u;double y;")
+    for number, _ in enumerate(topics):
+        made += message("A", struct.pack("<BH", number, number) + b"motor")
+    for k, values in enumerate(zip(u, y, strict=True)):
+        for number, _ in enumerate(topics):
+            made += message("D", struct.pack("<HQdd", number, 20_000 * k, *values))
+    return made
+
+
+def test_ulog(tmp_path, frame):
+    pytest.importorskip("pyulog")
+    u, y = frame["u"], frame["y"]
+    (tmp_path / "one").write_bytes(ulog(u, y))
+    record = read(tmp_path / "one")
+    same(record, frame)
+    assert record.clock is not None and record.clock.name == "timestamp"
+    assert record.clock.steps.tolist() == pytest.approx([0.02] * (ROWS - 1))
+    (tmp_path / "two").write_bytes(ulog(u, y, ("motor", "motor")))
+    with pytest.raises(RecordError, match=r"has 2 topics; name one by --part: 'motor\.0'"):
+        read(tmp_path / "two")
+    same(read(tmp_path / "two", part="motor.1"), frame)
+
+
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
 @pytest.mark.filterwarnings("ignore::ResourceWarning")
 @pytest.mark.parametrize("kind", ["TDMS", "MDF", "ULog"])
@@ -209,8 +240,8 @@ def test_broken_files_of_measuring_systems(tmp_path, kind):
         (b"TDSm", "nptdms", r"reading TDMS needs nptdms: pip install 'forgetting\[tdms\]'"),
         (b"MDF     4.10", "asammdf", r"pip install 'forgetting\[mdf\]'"),
         (b"ULog\x01\x12\x35", "pyulog", r"pip install 'forgetting\[ulog\]'"),
-        (b"MATLAB 5.0", "pymatreader", r"pip install 'forgetting\[matlab\]'"),
-        (b"\xd0\xcf\x11\xe0", "python_calamine", r"pip install 'forgetting\[excel\]'"),
+        (b"MATLAB 5.0", "pymatreader", r"pip install 'forgetting\[cli\]'"),
+        (b"\xd0\xcf\x11\xe0", "python_calamine", r"pip install 'forgetting\[cli\]'"),
     ],
 )
 def test_a_missing_library_is_told_with_its_line(tmp_path, monkeypatch, mark, module, line):
