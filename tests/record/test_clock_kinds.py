@@ -115,6 +115,29 @@ def test_year_month_day_in_columns_of_their_own():
     assert clock is not None and clock.steps.tolist() == [HOUR]
 
 
+def test_year_and_month():
+    frame = pd.DataFrame({"Year": [2023] * 2 + [2024], "Month": [11, 12, 1], "x": 0.0})
+    clock = read(frame).clock
+    assert clock is not None and clock.name == "Year + Month" and not clock.is_gap.any()
+
+
+def test_stamps_coarser_than_the_rows():
+    """Ten rows a second with stamps of whole seconds, two seconds lost."""
+    stamps = np.repeat([0, 1, 2, 5, 6], 10)
+    clock = read(pd.DataFrame({"time": stamps, "x": 0.0})).clock
+    assert np.flatnonzero(clock.is_gap).tolist() == [29]
+    assert clock.gaps().startswith("1 gap: 1 step over 1.5 s, most rows share a stamp")
+
+
+def test_a_few_unreadable_stamps_are_missing_times():
+    stamps = [f"2024-01-01 00:00:{k:02}" for k in range(30)]
+    clock = read(pd.DataFrame({"time": [*stamps[:9], "???", *stamps[10:]], "x": 0.0})).clock
+    assert np.flatnonzero(clock.is_gap).tolist() == [8, 9]
+    assert clock.kind == "date-times, 1 of them unreadable"
+    half = ["x" if k % 2 else stamp for k, stamp in enumerate(stamps)]
+    assert read(pd.DataFrame({"time": half, "x": 0.0})).clock is None
+
+
 def local(*stamps):
     return read(pd.DataFrame({"time": pd.to_datetime(list(stamps)), "x": 0.0})).clock
 

@@ -85,6 +85,8 @@ def test_columnar(tmp_path, frame):
 def test_a_folder_of_parquet(tmp_path, frame):
     for k in range(4):
         frame.iloc[10 * k : 10 * k + 10].to_parquet(tmp_path / f"part-{k}.parquet")
+    (tmp_path / "notes.txt").write_text("no part")
+    (tmp_path / ".part.parquet").write_text("half of one that is being written")
     record = read(tmp_path)
     same(record, frame)
     assert record.found.details == {"files": "4"} and not record.clock.is_gap.any()

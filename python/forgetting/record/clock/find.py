@@ -149,15 +149,14 @@ def together(frame: pd.DataFrame, day: str, hour: str, units: Mapping[str, str])
 
 
 def year_month_day(frame: pd.DataFrame) -> tuple[str, Times] | None:
-    """Join columns named year, month, day, and hour, minute, second where they are."""
+    """Join columns named year and month, and day, hour, minute, second where they are."""
     columns = {str(name).lower(): name for name in frame.columns}
     present = [part for part in YMD if part in columns]
-    if present[:3] != list(YMD[:3]):
+    if present[:2] != list(YMD[:2]):
         return None
     try:
-        values = pd.to_datetime(
-            frame[[columns[part] for part in present]].set_axis(present, axis=1)
-        )
+        table = frame[[columns[part] for part in present]].set_axis(present, axis=1)
+        values = pd.to_datetime(table if "day" in present else table.assign(day=1))
     except (ValueError, TypeError):
         return None
     return " + ".join(str(columns[part]) for part in present), Times(values, "date-times")

@@ -15,6 +15,8 @@ from forgetting.record.clock.times import Times
 HMS = re.compile(r"[+-]?(\d+\s*d(ays?)?,?\s*)?\d+:\d{1,2}(:\d{1,2}([.,]\d*)?|[.,]\d+)?$")
 TWELVE = re.compile(r"\d{1,2}:\d{2}(:\d{2}([.,]\d*)?)?\s*[AaPp]\.?[Mm]\.?$")
 ZONE = r"\s+\(?(?:UTC|GMT|[A-Z]{2,4}T|[A-Z]{3,4})\)?$"
+LOST = 0.1
+"""Share of the stamps that may be unreadable; those rows have no time."""
 ORDER = r"^(\d{1,2})[-/. ](\d{1,2})[-/. ]\d{2,4}"
 
 
@@ -46,7 +48,13 @@ def iso(text: pd.Series) -> Times | None:
     if parsed is not None:
         return Times(parsed, "date-times")
     parsed = attempt(lambda: pd.to_datetime(text, format="ISO8601", utc=True))
-    return None if parsed is None else Times(parsed, "date-times, shown in UTC")
+    if parsed is not None:
+        return Times(parsed, "date-times, shown in UTC")
+    parsed = attempt(lambda: pd.to_datetime(text, format="ISO8601", errors="coerce"))
+    lost = 0 if parsed is None else int(parsed.isna().sum() - text.isna().sum())
+    if parsed is None or lost > LOST * text.notna().sum():
+        return None
+    return Times(parsed, f"date-times, {lost} of them unreadable")
 
 
 def by_order(text: pd.Series) -> Times | None:

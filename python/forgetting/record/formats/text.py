@@ -46,7 +46,7 @@ def load(stream: BinaryIO, source: str, given: str | None) -> Table:
     text = Text(stream, given or encoding(stream), source)
     try:
         return table(text, given is not None)
-    except (UnicodeDecodeError, LookupError) as error:
+    except (UnicodeError, LookupError) as error:
         raise RecordError(f"{source} is not {text.encoding} text: {first_line(error)}") from None
 
 
