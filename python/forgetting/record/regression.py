@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from forgetting.record.columns import numbers, resolve
 from forgetting.record.formula import FUNCTIONS, check_code
+from forgetting.record.lag import Lag
 from forgetting.record.read import Record
 from forgetting.record.samples import Samples
 from forgetting.record.terms import check_size, check_terms, shortened
@@ -133,25 +134,6 @@ def categorical(parsed: Any, known: set[str]) -> set[str]:
         used = columns(factor, known)
         (inside if CATEGORICAL.match(str(factor.expr)) else outside).update(used)
     return inside - outside
-
-
-class Lag:
-    """``lag(x, k)``: x, k rows ago, within a stretch between gaps of the clock."""
-
-    def __init__(self, record: Record) -> None:
-        self.segments = None if record.clock is None else record.clock.segments()
-        self.cut: NDArray[np.bool_] = np.zeros(len(record.frame), dtype=bool)
-        """Rows in which a value was there, but on the other side of a gap."""
-
-    def __call__(self, column: pd.Series, steps: int = 1) -> pd.Series:
-        """Shift, and note what was cut."""
-        column = pd.Series(column)
-        plain = column.shift(steps)
-        if self.segments is None:
-            return plain
-        within = column.groupby(self.segments).shift(steps)
-        self.cut |= (plain.notna() & within.isna()).to_numpy()
-        return within
 
 
 def evaluate(parsed: Any, formula: str, frame: pd.DataFrame, lag: Lag) -> ModelMatrices:

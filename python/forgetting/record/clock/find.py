@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from datetime import date, time
 from itertools import islice
@@ -21,6 +22,7 @@ from forgetting.words.errors import RecordError
 
 ONWARD = 0.6
 """A column runs like time when at least this share of its steps does not go back."""
+UNNAMED = re.compile(r"column \d+")
 YMD = ("year", "month", "day", "hour", "minute", "second")
 
 
@@ -114,8 +116,9 @@ def may_be_time(column: pd.Series, name: str, first: bool, units: Mapping[str, s
     if not pd.api.types.is_numeric_dtype(column) or column.dtype.kind not in "fiu":
         return pd.api.types.is_datetime64_any_dtype(column) or column.dtype.kind == "m"
     timed = unit_of(name, units.get(name)) is not None
-    hinted = sounds_like_time(name) and (timed or name not in units)
-    return hinted or (first and timed) or (first and is_date(column))
+    unnamed = first and UNNAMED.fullmatch(name) is not None and is_date(column, months=True)
+    hinted = unnamed or (sounds_like_time(name) and (timed or name not in units))
+    return hinted or (timed and (first or name in units)) or (first and is_date(column))
 
 
 def looks_like_time(cell: object) -> bool:

@@ -13,6 +13,7 @@ import pandas as pd
 from forgetting.record.clock.times import Times
 
 HMS = re.compile(r"[+-]?(\d+\s*d(ays?)?,?\s*)?\d+:\d{1,2}(:\d{1,2}([.,]\d*)?|[.,]\d+)?$")
+SPAN = re.compile(r".*\d\s+[-–]\s+\d.*\d$")
 TWELVE = re.compile(r"\d{1,2}:\d{2}(:\d{2}([.,]\d*)?)?\s*[AaPp]\.?[Mm]\.?$")
 ZONE = r"\s+\(?(?:UTC|GMT|[A-Z]{2,4}T|[A-Z]{3,4})\)?$"
 LOST = 0.1
@@ -32,6 +33,9 @@ def from_text(column: pd.Series) -> Times | None:
     if known.empty:
         return None
     first = str(known.iloc[0])
+    if SPAN.match(first):
+        # A stretch of time such as "01.01.2024 00:00 - 01.01.2024 00:15" is known by its begin.
+        return from_text(text.str.replace(r"\s+[-–]\s+.*", "", regex=True))
     if HMS.match(first):
         return of_day(text)
     if TWELVE.match(first):

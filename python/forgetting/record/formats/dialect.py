@@ -72,7 +72,7 @@ def split(line: str, separator: str) -> list[str]:
 
 def is_aside(line: str) -> bool:
     """Whether a line is blank or a comment."""
-    return not line.strip() or line.lstrip().startswith(COMMENT)
+    return not line.strip() or line.lstrip(" ").startswith(COMMENT)
 
 
 def dialect(lines: Sequence[str]) -> Dialect | None:
