@@ -123,7 +123,7 @@ def test_stretches_of_time(export):
 
 def test_battery_cycler(export):
     rows = [
-        f"{k + 1},{k / 2:.4f},01/02/2024 10:00:{k // 2:02},{k % 10 / 2:.4f},{k % 3},{3 + k % 3 / 4}\n"
+        f"{k},{k / 2},01/02/2024 10:00:{k // 2:02},{k % 10 / 2:.4f},{k % 3},{3 + k % 3 / 4}\n"
         for k in range(40)
     ]
     names = "Data_Point,Test_Time(s),Date_Time,Step_Time(s),Current(A),Voltage(V)\n"

@@ -42,7 +42,7 @@ def test_names_in_every_output(tmp_path, capsys):
     assert "\x1b[31m" not in capsys.readouterr().out
     assert main([*command, "--json"]) == 0
     printed = json.loads(capsys.readouterr().out)
-    assert [row["parameter"] for row in printed["parameters"][1:]] == [f"{n}(k)" for n in inputs]
+    assert {f"{name}(k)" for name in inputs} <= {row["parameter"] for row in printed["parameters"]}
 
 
 def test_a_clock_named_by_dollars(tmp_path):

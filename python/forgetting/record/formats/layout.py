@@ -147,7 +147,7 @@ def is_below(row: list[str] | None, over: list[str] | None) -> bool:
     """Whether a row stands below the names, which are in the row over it."""
     row, names = row or [], trimmed(over or [])
     share = unit_share(row)
-    if share >= HALF and share > unit_share(names) and len(trimmed(row)) <= len(names):
+    if share >= max(HALF, unit_share(names)) and len(trimmed(row)) <= len(names):
         return True
     filled = [name for name in names if name]
     own = [cell for cell, name in zip(row, names, strict=False) if name]
