@@ -65,8 +65,8 @@ def run(arguments: list[str]) -> int:
         return complain(f"{error}; a rule with a bounded covariance, such as subspace, avoids this")
     except MemoryError:
         return complain("the record does not fit into memory")
-    except BrokenPipeError:
-        # The reader (such as `head`) has what it wanted.
+    except (BrokenPipeError, SystemExit):
+        # The reader (such as `head`) has what it wanted; rich, which prints the help, exits then.
         leave_quietly()
         return 0
     except OSError as error:

@@ -15,7 +15,7 @@ from formulaic.transforms import TRANSFORMS
 from forgetting.record.terms import shortened
 from forgetting.words.errors import RecordError, first_line
 
-BUILTINS = frozenset(("abs", "min", "max", "round", "sum", "float", "int", "bool", "len", "pow"))
+BUILTINS = frozenset(("abs", "min", "max", "round", "sum", "float", "bool", "len"))
 FUNCTIONS = frozenset({"lag", *TRANSFORMS}) | BUILTINS
 """Names that a formula may use without a column of that name."""
 
@@ -47,7 +47,7 @@ SYNTAX = (
 
 COUNT = 1000
 """Largest whole number as an exponent, or in a call, where it counts splines or powers."""
-COUNTED = frozenset(("poly", "bs", "cs", "cr", "cc", "hashed", "pow", "round"))
+COUNTED = frozenset(("poly", "bs", "cs", "cr", "cc", "hashed", "round"))
 """Functions in which a whole number costs time and memory."""
 PLACE = "_column_"
 BACKTICKS = re.compile(r"`([^`]*)`")
@@ -73,7 +73,7 @@ def check_code(expression: str, formula: str) -> set[str]:
         tree = ast.parse(plain, mode="eval")
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
         raise RecordError(
-            f"the formula {shortened(formula)} cannot be read: {first_line(error)}"
+            f"the formula {shortened(formula)} cannot be read: {without_place(error)}"
         ) from None
     for node in ast.walk(tree):
         wrong = fault(node)
@@ -81,6 +81,11 @@ def check_code(expression: str, formula: str) -> set[str]:
             raise RecordError(f"the formula {shortened(formula)} {wrong}")
     used = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
     return {names[int(name[len(PLACE) :])] if name.startswith(PLACE) else name for name in used}
+
+
+def without_place(error: BaseException) -> str:
+    """What Python says of its syntax, without the line of a file that is none."""
+    return first_line(error).partition(" (<unknown>")[0]
 
 
 def kept(name: str, names: list[str]) -> str:
@@ -125,8 +130,8 @@ def call(node: ast.Call) -> str | None:
     if name not in COUNTED:
         return None
     for given in [*node.args, *(keyword.value for keyword in node.keywords)]:
-        if isinstance(given, ast.Constant) and isinstance(given.value, int) and given.value > COUNT:
-            return f"has {given.value} in {name}(), where at most {COUNT} makes sense"
+        if is_plain(given) and not small(given):
+            return f"has a number in {name}() that is too large; at most {COUNT} makes sense"
     return None
 
 
@@ -137,14 +142,22 @@ def operation(node: ast.BinOp) -> str | None:
         text = isinstance(side, ast.Constant) and not isinstance(side.value, int | float | complex)
         if text or isinstance(side, ast.List | ast.Tuple | ast.Dict):
             return "computes with text or lists"
-    plain = [not any(isinstance(part, ast.Name) for part in ast.walk(side)) for side in sides]
-    if isinstance(node.op, ast.Pow) and all(plain) and not all(map(small, sides)):
+    if isinstance(node.op, ast.Pow) and all(map(is_plain, sides)) and not all(map(small, sides)):
         return "has a power of numbers that is too large"
     return None
 
 
+def is_plain(node: ast.AST) -> bool:
+    """Whether a node is arithmetic of numbers alone."""
+    parts = (ast.Constant, ast.BinOp, ast.UnaryOp, ast.operator, ast.unaryop)
+    only = all(isinstance(part, parts) for part in ast.walk(node))
+    return only and not (isinstance(node, ast.Constant) and not isinstance(node.value, int | float))
+
+
 def small(node: ast.AST) -> bool:
     """Whether a node is a number that is not too large for a power."""
+    if isinstance(node, ast.UnaryOp):
+        return small(node.operand)
     if not isinstance(node, ast.Constant) or not isinstance(node.value, int | float):
         return False
     return abs(node.value) <= COUNT

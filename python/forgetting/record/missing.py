@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from numbers import Number
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,9 @@ from forgetting.record.columns import to_numbers
 from forgetting.record.formats import cells
 
 Words = Sequence[str | float]
+
+FIRST = 100
+"""Cells that are looked at one by one before a whole column is."""
 
 
 def is_text(column: pd.Series) -> bool:
@@ -48,6 +52,8 @@ def without_words(frame: pd.DataFrame, missing: Words) -> tuple[pd.DataFrame, Co
 
 def as_numbers(column: pd.Series, words: frozenset[str]) -> tuple[pd.Series | None, Counter[str]]:
     """The column as numbers, or None where it holds other text than the words."""
+    if any(is_other(cell, words) for cell in column.dropna().head(FIRST)):
+        return None, Counter()
     parsed, odd = converted(column)
     if odd.any():
         others = column[odd].astype(str).str.strip()
@@ -60,6 +66,19 @@ def as_numbers(column: pd.Series, words: frozenset[str]) -> tuple[pd.Series | No
             return None, Counter()
         return parsed, Counter(others[others != ""])
     return parsed, Counter()
+
+
+def is_other(cell: object, words: frozenset[str]) -> bool:
+    """Whether a cell is neither a number nor a word for a missing value."""
+    if not isinstance(cell, str):
+        return not isinstance(cell, Number)
+    text = cell.strip()
+    return not (cells.is_number(text) or is_float(text) or text.lower() in words)
+
+
+def is_float(text: str) -> bool:
+    """Whether Python reads a number, infinity included."""
+    return number_of(text) is not None
 
 
 def converted(column: pd.Series) -> tuple[pd.Series, pd.Series]:

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from forgetting.record.columns import numbers, resolve
 from forgetting.record.formula import FUNCTIONS, check_code
+from forgetting.record.lag import Lag
 from forgetting.record.read import Record
 from forgetting.record.samples import Samples
 from forgetting.record.terms import check_size, check_terms, shortened
@@ -23,6 +24,7 @@ from forgetting.words.errors import RecordError, first_line
 ANSI = re.compile(r"\x1b\[[0-9;]*m|[⧛⧚]")
 CATEGORICAL = re.compile(r"C\s*\(")
 CALLED = {Variable.Role.CALLABLE}
+Array = NDArray[np.float64]
 
 
 def regression(record: Record, formula: str) -> Samples:
@@ -39,10 +41,11 @@ def regression(record: Record, formula: str) -> Samples:
     matrices = evaluate(parsed, formula, frame, lag)
     phi, y = matrices.rhs, matrices.lhs
     if phi.shape[1] == 0:
-        raise RecordError(f"the formula {formula!r} has no regressor on its right side")
+        raise RecordError(f"the formula {shortened(formula)} has no regressor on its right side")
+    regressors, outputs = as_floats(phi, formula), as_floats(y, formula)
     samples = Samples(
-        values(phi, frame, parsed),
-        y.to_numpy(dtype=np.float64),
+        without_categories(regressors, frame, parsed),
+        outputs,
         tuple(map(str, phi.columns)),
         tuple(map(str, y.columns)),
         formula,
@@ -133,25 +136,6 @@ def categorical(parsed: Any, known: set[str]) -> set[str]:
     return inside - outside
 
 
-class Lag:
-    """``lag(x, k)``: x, k rows ago, within a stretch between gaps of the clock."""
-
-    def __init__(self, record: Record) -> None:
-        self.segments = None if record.clock is None else record.clock.segments()
-        self.cut: NDArray[np.bool_] = np.zeros(len(record.frame), dtype=bool)
-        """Rows in which a value was there, but on the other side of a gap."""
-
-    def __call__(self, column: pd.Series, steps: int = 1) -> pd.Series:
-        """Shift, and note what was cut."""
-        column = pd.Series(column)
-        plain = column.shift(steps)
-        if self.segments is None:
-            return plain
-        within = column.groupby(self.segments).shift(steps)
-        self.cut |= (plain.notna() & within.isna()).to_numpy()
-        return within
-
-
 def evaluate(parsed: Any, formula: str, frame: pd.DataFrame, lag: Lag) -> ModelMatrices:
     """Evaluate the formula; `lag` is ours, because it must stop at gaps of the clock."""
     try:
@@ -164,9 +148,21 @@ def evaluate(parsed: Any, formula: str, frame: pd.DataFrame, lag: Lag) -> ModelM
         ) from None
 
 
-def values(phi: pd.DataFrame, frame: pd.DataFrame, parsed: Any) -> np.ndarray[Any, Any]:
-    """Regressors as float64; a missing category makes its row missing, not all zeros."""
-    table = np.array(phi.to_numpy(dtype=np.float64), order="C")
+def as_floats(table: pd.DataFrame, formula: str) -> Array:
+    """What a side of the formula gives, as float64; text or complex numbers are refused."""
+    kinds = {kind.kind for kind in table.dtypes}
+    try:
+        if "c" in kinds:
+            raise ValueError("a term is complex")
+        return np.array(table.to_numpy(dtype=np.float64), order="C")
+    except (ValueError, TypeError) as error:
+        raise RecordError(
+            f"the formula {shortened(formula)} gives no numbers: {plain(error)}"
+        ) from None
+
+
+def without_categories(table: Array, frame: pd.DataFrame, parsed: Any) -> Array:
+    """A missing category makes its row missing, not all zeros."""
     for name in categorical(parsed, set(map(str, frame.columns))):
         table[frame[name].isna().to_numpy()] = np.nan
     return table
@@ -184,4 +180,4 @@ def refuse_infinite_outputs(samples: Samples) -> None:
 
 def plain(error: Exception) -> str:
     """One line of a library's message, without its colours."""
-    return first_line(ValueError(ANSI.sub("", str(error))))
+    return first_line(ValueError(ANSI.sub("", str(error)))).partition(" (<unknown>")[0]

@@ -19,8 +19,8 @@ Progress = Callable[[int, int], None]
 
 CHUNKS = 1000
 """Pieces a record is run in; the eigenvalues of P are taken after each, so at most this often."""
-CHEAP = 2_000_000_000
-"""Cubes of parameters that all eigenvalues together may cost: a second or two."""
+CHEAP = 200_000_000
+"""Cubes of parameters that all eigenvalues together may cost: about a second."""
 FEWEST = 20
 """Pieces however many parameters there are."""
 
@@ -131,7 +131,7 @@ def chunks(total: int, parameters: int) -> list[tuple[int, int]]:
     Examples
     --------
     >>> len(chunks(2000, 4)), len(chunks(2000, 400))
-    (1000, 31)
+    (1000, 20)
     """
     most = min(CHUNKS, max(CHEAP // parameters**3, FEWEST))
     length = max(1, math.ceil(total / most))

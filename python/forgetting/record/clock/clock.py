@@ -71,14 +71,21 @@ class Clock:
         """Whether there is a gap between a row and the next, (T − 1,).
 
         A step that is too long, that goes back or that does not go on at all, and one from or to a
-        missing time.
+        missing time. Where most rows repeat the stamp before them, as in a fast log with stamps of
+        whole seconds, a repeated stamp says nothing.
         """
         limit, steps = self.limit, self.steps
         long = steps > limit * SLACK
         if self.gap is None and self.is_datetime:
             days = business_days(self.values)
             long = long if days is None else days > GAP
-        return np.asarray(~(steps > 0) | long)
+        on = steps >= 0 if self.is_coarse else steps > 0
+        return np.asarray(~on | long)
+
+    @property
+    def is_coarse(self) -> bool:
+        """Whether most rows repeat the stamp of the row before."""
+        return bool(np.mean(self.steps == 0) > 0.5) if len(self.steps) else False
 
     @property
     def limit(self) -> float:
@@ -105,7 +112,7 @@ class Clock:
     def gaps(self) -> str:
         """How many gaps there are and of what kind, in words."""
         back = int((self.steps < 0).sum())
-        still = int((self.steps == 0).sum())
+        still = 0 if self.is_coarse else int((self.steps == 0).sum())
         unknown = int(np.isnan(self.steps).sum())
         longer = int(self.is_gap.sum()) - back - still - unknown
         of = "the business days" if self._counts_business_days else f"{brief(self.limit)} s"
@@ -116,6 +123,8 @@ class Clock:
             (unknown, f"step{'s' * (unknown != 1)} at a missing time"),
         ]
         told = ", ".join(f"{count} {words}" for count, words in parts if count)
+        if self.is_coarse:
+            told += ", " * bool(told) + "most rows share a stamp, so that repeating one is no gap"
         total = int(self.is_gap.sum())
         return f"{total} gap{'s' * (total != 1)}" + (f": {told}" if told else "")
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from datetime import date, time
 from itertools import islice
@@ -21,6 +22,7 @@ from forgetting.words.errors import RecordError
 
 ONWARD = 0.6
 """A column runs like time when at least this share of its steps does not go back."""
+UNNAMED = re.compile(r"column \d+")
 YMD = ("year", "month", "day", "hour", "minute", "second")
 
 
@@ -113,9 +115,10 @@ def may_be_time(column: pd.Series, name: str, first: bool, units: Mapping[str, s
         return bool(len(known)) and looks_like_time(known.iloc[0])
     if not pd.api.types.is_numeric_dtype(column) or column.dtype.kind not in "fiu":
         return pd.api.types.is_datetime64_any_dtype(column) or column.dtype.kind == "m"
-    hinted = sounds_like_time(name)
-    timed = unit_of(name, units.get(name)) is not None and (first or hinted)
-    return hinted or timed or (first and is_date(column))
+    timed = unit_of(name, units.get(name)) is not None
+    unnamed = first and UNNAMED.fullmatch(name) is not None and is_date(column, months=True)
+    hinted = unnamed or (sounds_like_time(name) and (timed or name not in units))
+    return hinted or (timed and (first or name in units)) or (first and is_date(column))
 
 
 def looks_like_time(cell: object) -> bool:
@@ -149,15 +152,14 @@ def together(frame: pd.DataFrame, day: str, hour: str, units: Mapping[str, str])
 
 
 def year_month_day(frame: pd.DataFrame) -> tuple[str, Times] | None:
-    """Join columns named year, month, day, and hour, minute, second where they are."""
+    """Join columns named year and month, and day, hour, minute, second where they are."""
     columns = {str(name).lower(): name for name in frame.columns}
     present = [part for part in YMD if part in columns]
-    if present[:3] != list(YMD[:3]):
+    if present[:2] != list(YMD[:2]):
         return None
     try:
-        values = pd.to_datetime(
-            frame[[columns[part] for part in present]].set_axis(present, axis=1)
-        )
+        table = frame[[columns[part] for part in present]].set_axis(present, axis=1)
+        values = pd.to_datetime(table if "day" in present else table.assign(day=1))
     except (ValueError, TypeError):
         return None
     return " + ".join(str(columns[part]) for part in present), Times(values, "date-times")

@@ -14,6 +14,7 @@ from forgetting.record.clock.units import SECONDS
 WRITTEN = (
     (190001, 210012, "%Y%m", "months written as yyyymm"),
     (19000101, 21001231, "%Y%m%d", "dates written as yyyymmdd"),
+    (1900010100, 2100123123, "%Y%m%d%H", "times written as yyyymmddhh"),
     (190001010000, 210012312359, "%Y%m%d%H%M", "times written as yyyymmddhhmm"),
     (19000101000000, 21001231235959, "%Y%m%d%H%M%S", "times written as yyyymmddhhmmss"),
 )
@@ -42,12 +43,12 @@ def from_numbers(column: pd.Series, unit: str | None) -> Times:
     return Times(values, f"numbers in {unit}", SECONDS[unit.lower()])
 
 
-def is_date(column: pd.Series) -> bool:
-    """Whether all numbers are dates of day and year, or times since 1970."""
-    values = column.astype(np.float64)
-    written = as_written(values)
-    months = written is not None and "months" in written.kind
-    return (written is not None and not months) or since_1970(column, None) is not None
+def is_date(column: pd.Series, months: bool = False) -> bool:
+    """Whether all numbers are dates of day and year (or months alone), or times since 1970."""
+    written = as_written(column.astype(np.float64))
+    if written is not None:
+        return months or "months" not in written.kind
+    return since_1970(column, None) is not None
 
 
 def as_written(values: pd.Series) -> Times | None:

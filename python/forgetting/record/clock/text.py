@@ -13,10 +13,12 @@ import pandas as pd
 from forgetting.record.clock.times import Times
 
 HMS = re.compile(r"[+-]?(\d+\s*d(ays?)?,?\s*)?\d+:\d{1,2}(:\d{1,2}([.,]\d*)?|[.,]\d+)?$")
+SPAN = re.compile(r".*\d\s+[-–]\s+\d.*\d$")
 TWELVE = re.compile(r"\d{1,2}:\d{2}(:\d{2}([.,]\d*)?)?\s*[AaPp]\.?[Mm]\.?$")
 ZONE = r"\s+\(?(?:UTC|GMT|[A-Z]{2,4}T|[A-Z]{3,4})\)?$"
+LOST = 0.1
+"""Share of the stamps that may be unreadable; those rows have no time."""
 ORDER = r"^(\d{1,2})[-/. ](\d{1,2})[-/. ]\d{2,4}"
-MONTHS = re.compile(r"[^\W\d_]{3,}")
 
 
 def from_text(column: pd.Series) -> Times | None:
@@ -31,12 +33,15 @@ def from_text(column: pd.Series) -> Times | None:
     if known.empty:
         return None
     first = str(known.iloc[0])
+    if SPAN.match(first):
+        # A stretch of time such as "01.01.2024 00:00 - 01.01.2024 00:15" is known by its begin.
+        return from_text(text.str.replace(r"\s+[-–]\s+.*", "", regex=True))
     if HMS.match(first):
         return of_day(text)
     if TWELVE.match(first):
         parsed = attempt(lambda: pd.to_datetime("2000-01-01 " + text, format="mixed"))
         return None if parsed is None else Times(since_midnight(parsed), "times of day", 1.0, True)
-    if known.str.contains(ZONE).all() and not MONTHS.fullmatch(first):
+    if re.search(ZONE, first) and known.str.contains(ZONE).all():
         text = text.str.replace(ZONE, "", regex=True)
     return iso(text) or by_order(text)
 
@@ -47,7 +52,13 @@ def iso(text: pd.Series) -> Times | None:
     if parsed is not None:
         return Times(parsed, "date-times")
     parsed = attempt(lambda: pd.to_datetime(text, format="ISO8601", utc=True))
-    return None if parsed is None else Times(parsed, "date-times, shown in UTC")
+    if parsed is not None:
+        return Times(parsed, "date-times, shown in UTC")
+    parsed = attempt(lambda: pd.to_datetime(text, format="ISO8601", errors="coerce"))
+    lost = 0 if parsed is None else int(parsed.isna().sum() - text.isna().sum())
+    if parsed is None or lost > LOST * text.notna().sum():
+        return None
+    return Times(parsed, f"date-times, {lost} of them unreadable")
 
 
 def by_order(text: pd.Series) -> Times | None:

@@ -75,6 +75,9 @@ def words(name: str) -> list[str]:
 
 def sounds_like_time(name: str) -> bool:
     """Whether a name has a word for time in it; "timer" and "lifetime" are other words."""
+    if re.search(r"\bT\b", name):
+        # A temperature.
+        return False
     own = words(name)
     return bool(HINTS & set(own)) or any(word.endswith("zeit") for word in own)
 

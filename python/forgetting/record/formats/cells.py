@@ -40,14 +40,14 @@ SYMBOL = (
     r"bit|rad|sr|t)"
 )
 WORD = (
-    r"°|deg|°[CFR]|degC|degF|degree|degrees|%|‰|ppm|ppb|min|minutes?|hr?|hours?|days?|d|sec|seconds?|"
-    r"psi|mph|kph|kmh|knots?|kt|in|ft|lb|lbs|gal|rpm|RPM|G|dBm|mmHg|mmH2O|inHg|percent|volts?|amps?|"
-    r"watts?|counts?|1|[-–]|a\.?u\.?|m³|m²"
+    r"°|deg|°[CFR]|degC|degF|degree|degrees|%|percent|‰|ppm|ppb|psi|mmHg|mmH2O|inHg|bits?|G|dBm|"
+    r"min|minutes?|hr?|hours?|days?|d|sec|seconds?|[Ss]equence|mph|kph|kmh|knots?|kt|in|ft|lb|lbs|gal|"
+    r"rpm|RPM|[Vv]olts?|[Aa]mps?|[Ww]atts?|counts?|V vs\.? .*|1|[-–]|a\.?u\.?|m³|m²"
 )
 FACTOR = rf"({SYMBOL}|{WORD})([\^*]*[-−]?\d+|[²³⁻¹]+)?"
 UNIT = re.compile(rf"({FACTOR})([\s·*./]+({FACTOR}))*$")
 BRACKETED = re.compile(r"[\[(<{].*[\])>}]$")
-REMARK = re.compile(r"(TS|RN|Smp|Avg|Max|Min|Tot|Std|WVc|\d+[sdnN]|float|double|int|datetime)$")
+REMARK = re.compile(r"(#|TS|RN|Smp|Avg|Max|Min|Tot|Std|WVc|\d+[sdnN]|float|double|int|datetime)$")
 """What loggers write between names and numbers besides units: how a column was made."""
 
 

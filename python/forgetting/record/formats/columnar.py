@@ -36,11 +36,23 @@ def arrow_stream(stream: BinaryIO, source: str) -> Table:
 
 def folder(path: Path) -> Table:
     """Read a folder of Parquet files as one table, in the order of their names."""
-    files = sorted(each for each in path.rglob("*") if each.suffix.lower() in ENDINGS)
+    files = sorted(str(each) for each in path.rglob("*") if is_part(each))
     if not files:
         raise RecordError(f"{path} is a folder without Parquet files; name a file")
-    frame = whole("pyarrow.parquet", "read_table", str(path), str(path), "Parquet")
+    library = extra("pyarrow.dataset", "reading Parquet")
+    try:
+        parts = library.dataset(
+            files, format="parquet", partitioning="hive", partition_base_dir=str(path)
+        )
+        frame = parts.to_table().to_pandas()
+    except (OSError, ValueError, TypeError) as error:
+        raise RecordError(f"{path} is no folder of Parquet: {first_line(error)}") from None
     return Table(frame, "folder of Parquet", {"files": str(len(files))})
+
+
+def is_part(path: Path) -> bool:
+    """Whether a file in a folder is one of its Parquet files; hidden ones are not."""
+    return path.suffix.lower() in ENDINGS and not path.name.startswith((".", "_"))
 
 
 def whole(module: str, function: str, source: Any, name: str, kind: str) -> pd.DataFrame:

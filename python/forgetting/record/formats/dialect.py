@@ -20,6 +20,8 @@ NAMES = {
     "": "none, one column",
 }
 COMMENT = ("#", "%", "//", "!")
+LONG = 30
+"""Rows from which on a run is no more like a table when it is longer."""
 MISFIT = 0.4
 """What is left of a separator's worth where the line above the numbers has another width."""
 
@@ -70,7 +72,7 @@ def split(line: str, separator: str) -> list[str]:
 
 def is_aside(line: str) -> bool:
     """Whether a line is blank or a comment."""
-    return not line.strip() or line.lstrip().startswith(COMMENT)
+    return not line.strip() or line.lstrip(" ").startswith(COMMENT)
 
 
 def dialect(lines: Sequence[str]) -> Dialect | None:
@@ -116,11 +118,13 @@ def body(rows: Sequence[list[str] | None]) -> tuple[Run | None, list[str] | None
     tables = [run for run in runs if valued(run.kinds)]
     if not tables:
         return None, None
-    last = tables[-1]
-    best = max(
-        tables, key=lambda run: len(run.rows) * quality(run) ** 2 * (4 if run is last else 1)
-    )
+    best = max(tables, key=lambda run: likeness(run, run is tables[-1]))
     return best, above[best.first]
+
+
+def likeness(run: Run, last: bool) -> float:
+    """How much a run is like the body of a table, which goes on to the end."""
+    return min(len(run.rows), LONG) * quality(run) ** 2 * (4 if last else 1)
 
 
 def merge(one: tuple[str, ...], other: tuple[str, ...]) -> tuple[str, ...] | None:

@@ -20,7 +20,7 @@ SEEN = 300
 
 def load(stream: BinaryIO, source: str, part: str | None) -> Table:
     """Read the sheet that was asked for, or the first that holds a table of numbers."""
-    calamine = extra("python_calamine", "reading Excel", "excel")
+    calamine = extra("python_calamine", "reading Excel")
     try:
         book = calamine.CalamineWorkbook.from_filelike(stream)
         names = list(book.sheet_names)

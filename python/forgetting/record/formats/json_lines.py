@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import io
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 import pandas as pd
 
 from forgetting.record.formats.encoding import encoding
 from forgetting.record.formats.table import Table
 from forgetting.words.errors import RecordError, first_line
+
+OLD = tuple(int(part) for part in pd.__version__.split(".")[:2]) < (3, 1)
+AS_WRITTEN: dict[str, Any] = {"convert_dates": False} if OLD else {"dtype": False}
+"""What makes pandas leave dates to `forgetting.record.clock`."""
 
 
 def load(stream: BinaryIO, source: str, given: str | None) -> Table:
@@ -19,7 +23,7 @@ def load(stream: BinaryIO, source: str, given: str | None) -> Table:
     text = io.TextIOWrapper(stream, code)
     try:
         lines = not begins_with_bracket(text)
-        frame = pd.read_json(text, lines=lines, convert_dates=False, precise_float=True)
+        frame = pd.read_json(text, lines=lines, precise_float=True, **AS_WRITTEN)
     except (ValueError, TypeError, AttributeError) as error:
         raise RecordError(f"{source} is not JSON lines: {first_line(error)}") from None
     finally:

@@ -8,6 +8,9 @@ from dataclasses import dataclass, field
 from forgetting.record.formats import cells
 from forgetting.record.formats.dialect import trimmed
 
+HALF = 0.5
+VALUES = ("number", "time")
+"""Kinds of cells that are values."""
 AMONG = 20
 """A header stands below at most this many lines that could be rows of the table themselves."""
 
@@ -75,8 +78,8 @@ def is_data(row: list[str], kinds: Sequence[str]) -> bool:
         return False
     found = [cells.kind(cell) for cell in row[: len(kinds)]]
     pairs = list(zip(found, kinds, strict=False))
-    fine = all(have != "text" for have, want in pairs if want in ("number", "time"))
-    return fine and any(have in ("number", "time") for have, want in pairs if want != "text")
+    fine = all(have != "text" for have, want in pairs if want in VALUES)
+    return fine and any(have in VALUES for have, want in pairs if want in VALUES)
 
 
 def over_bad_cells(rows: Sequence[list[str] | None], first: int, kinds: Sequence[str]) -> int:
@@ -92,7 +95,7 @@ def has_some(row: list[str] | None, kinds: Sequence[str]) -> bool:
     if row is None or len(row) != len(kinds) or len(kinds) < 2:
         return False
     pairs = zip(map(cells.kind, row), kinds, strict=True)
-    return any(have in ("number", "time") for have, want in pairs if want != "text")
+    return any(have in VALUES for have, want in pairs if want in VALUES)
 
 
 def above(rows: Sequence[list[str] | None], first: int, kinds: Sequence[str]) -> list[int]:
@@ -131,7 +134,7 @@ def named(rows: Sequence[list[str] | None], header: list[int], first: int, width
         row = rows[number] or []
         if not units and unit_like(row):
             units = {i: cells.bare(cell) for i, cell in enumerate(row) if cells.bare(cell)}
-            spare -= 1
+            spare -= bool(units)
     return Layout(padded(names, width), units, header[place], first, spare)
 
 
@@ -143,14 +146,21 @@ def padded(names: list[str], width: int) -> list[str]:
 def is_below(row: list[str] | None, over: list[str] | None) -> bool:
     """Whether a row stands below the names, which are in the row over it."""
     row, names = row or [], trimmed(over or [])
-    if unit_like(row) and len(trimmed(row)) <= len(names):
+    share = unit_share(row)
+    if share >= max(HALF, unit_share(names)) and len(trimmed(row)) <= len(names):
         return True
-    distinct = len(set(names)) == len(names) and all(names)
-    own = row[: len(names)]
-    return distinct and len(row) >= len(names) and (len(set(own)) < len(own) or not all(own))
+    filled = [name for name in names if name]
+    own = [cell for cell, name in zip(row, names, strict=False) if name]
+    repeats = len(set(own)) < len(own) or not all(own)
+    return len(set(filled)) == len(filled) == len(own) and repeats
+
+
+def unit_share(row: list[str]) -> float:
+    """Share of the filled cells of a row that are units or remarks."""
+    filled = [cell for cell in row if cell]
+    return sum(map(cells.is_unit, filled)) / len(filled) if filled else 0.0
 
 
 def unit_like(row: list[str]) -> bool:
-    """Whether all cells of a row are units or remarks."""
-    filled = [cell for cell in row if cell]
-    return bool(filled) and all(map(cells.is_unit, filled))
+    """Whether at least half of the cells of a row are units or remarks."""
+    return unit_share(row) >= HALF

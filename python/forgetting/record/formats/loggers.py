@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -42,7 +43,7 @@ def mdf(stream: BinaryIO, source: str, part: str | None) -> Table:
             names = {group_name(content, i): i for i in range(len(content.groups))}
             names = {name: i for name, i in names.items() if content.groups[i].channels}
             name = choose(list(names), part, source, "group")
-            frame: pd.DataFrame = content.get_group(names[name], ignore_value2text_conversions=True)
+            frame = quiet(content.get_group, names[name], ignore_value2text_conversions=True)
             units = {channel.name: channel.unit for channel in content.groups[names[name]].channels}
         finally:
             content.close()
@@ -77,6 +78,13 @@ def ulog(stream: BinaryIO, source: str, part: str | None) -> Table:
 def opened(reader: Any, content: Any, source: str, kind: str) -> Any:
     """Open by a library; whatever it makes of broken bytes becomes one sentence."""
     try:
-        return reader(content)
+        return quiet(reader, content)
     except Exception as error:
         raise RecordError(f"{source} is not a whole {kind} file: {first_line(error)}") from None
+
+
+def quiet(function: Any, *arguments: Any, **options: Any) -> Any:
+    """Call a function of a library whose warnings are about its own inner life."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return function(*arguments, **options)

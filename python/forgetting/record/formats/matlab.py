@@ -39,7 +39,7 @@ def load(stream: BinaryIO, source: str, part: str | None) -> Table:
 
 def variables(stream: BinaryIO, source: str) -> dict[str, Any]:
     """All variables of a file."""
-    reader = extra("pymatreader", "reading MAT files", "matlab")
+    reader = extra("pymatreader", "reading MAT files")
     try:
         with on_disk(stream, ".mat") as path:
             content: dict[str, Any] = reader.read_mat(path)

@@ -16,12 +16,12 @@ from forgetting.record.formats.dialect import (
     Dialect,
     dialect,
     split,
-    trimmed,
 )
 from forgetting.record.formats.encoding import encoding
 from forgetting.record.formats.footer import below
 from forgetting.record.formats.layout import Layout, is_data, layout
 from forgetting.record.formats.lines import LINES, Text, joined, reference
+from forgetting.record.formats.repairs import check_names, with_points, without_headers
 from forgetting.record.formats.table import Table
 from forgetting.words.errors import RecordError, first_line
 
@@ -46,7 +46,7 @@ def load(stream: BinaryIO, source: str, given: str | None) -> Table:
     text = Text(stream, given or encoding(stream), source)
     try:
         return table(text, given is not None)
-    except (UnicodeDecodeError, LookupError) as error:
+    except (UnicodeError, LookupError) as error:
         raise RecordError(f"{source} is not {text.encoding} text: {first_line(error)}") from None
 
 
@@ -63,6 +63,8 @@ def table(text: Text, known: bool) -> Table:
     if footer:
         frame = frame.iloc[:-footer]
         skipped.append(f"{footer} line{'s' * (footer > 1)} below the table")
+    frame, notes = without_headers(frame)
+    skipped += notes
     details = {
         "separator": NAMES[form.separator],
         "decimal": "comma" if form.decimal == "," else "point",
@@ -73,7 +75,9 @@ def table(text: Text, known: bool) -> Table:
         details["thousands"] = repr(form.thousands)
     if found.header is None:
         details["names"] = "none in the file; columns are numbered"
-    return Table(frame, "delimited text", details, found.units, skipped)
+    places = used(frame)
+    units = {new: found.units[old] for new, old in enumerate(places) if old in found.units}
+    return Table(frame.iloc[:, places], "delimited text", details, units, skipped)
 
 
 def no_numbers(text: Text) -> RecordError:
@@ -105,7 +109,7 @@ def cells_of(line: str, form: Dialect) -> list[str] | None:
     """Cells of a line, None for a blank one; of a comment those behind its mark."""
     text = line.strip()
     for mark in COMMENT:
-        if text.startswith(mark):
+        if line.lstrip(" ").startswith(mark):
             inner = split(text.lstrip("#%!/ \t"), form.separator)
             # A line such as "# t I V" directly above the numbers holds their names.
             return (
@@ -155,9 +159,12 @@ def parsed(text: Text, form: Dialect, found: Layout, first: int, mark: str | Non
         raise unreadable(text, error, first) from None
     finally:
         handle.detach()
-    check_names(text, frame, found)
+    check_names(text.source, frame, found)
+    for place, kind in enumerate(form.kinds):
+        if kind == "number" and frame[place].dtype.kind not in "fiub":
+            frame[place] = with_points(frame[place], form)
     frame.columns = pd.Index([*found.names, *[""] * (len(names) - len(found.names))])
-    return without_empty_ends(frame)
+    return frame
 
 
 def comment(text: Text, first: int) -> str | None:
@@ -185,24 +192,6 @@ def unreadable(text: Text, error: Exception, first: int) -> RecordError:
     )
 
 
-def check_names(text: Text, frame: pd.DataFrame, found: Layout) -> None:
-    """Refuse cells beyond the last name of the header."""
-    named = len(trimmed(found.names))
-    if found.header is None or named == frame.shape[1]:
-        return
-    beyond = frame.iloc[:, named:].notna()
-    if beyond.to_numpy().any():
-        row = int(beyond.any(axis=1).to_numpy().argmax())
-        cells = named + int(beyond.iloc[row].to_numpy().nonzero()[0][-1]) + 1
-        which = "its first row" if row == 0 else f"row {row + 1}"
-        raise RecordError(
-            f"{text.source} has {cells} cells in {which} but {named} names in its header"
-        )
-
-
-def without_empty_ends(frame: pd.DataFrame) -> pd.DataFrame:
-    """Drop last columns that have neither name nor value: lines that end in a separator."""
-    end = frame.shape[1]
-    while end > 1 and frame.columns[end - 1] == "" and frame.iloc[:, end - 1].isna().all():
-        end -= 1
-    return frame.iloc[:, :end]
+def used(table: pd.DataFrame) -> list[int]:
+    """Columns that have a name or a value; lines that end in a separator make others."""
+    return [i for i, name in enumerate(table.columns) if name or table.iloc[:, i].notna().any()]

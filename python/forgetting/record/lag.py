@@ -1,0 +1,28 @@
+"""The function `lag` of formulas: it does not reach across a gap of the clock."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from forgetting.record.read import Record
+
+
+class Lag:
+    """``lag(x, k)``: x, k rows ago, within a stretch between gaps of the clock."""
+
+    def __init__(self, record: Record) -> None:
+        self.segments = None if record.clock is None else record.clock.segments()
+        self.cut: NDArray[np.bool_] = np.zeros(len(record.frame), dtype=bool)
+        """Rows in which a value was there, but on the other side of a gap."""
+
+    def __call__(self, column: pd.Series, steps: int = 1) -> pd.Series:
+        """Shift, and note what was cut."""
+        column = pd.Series(column)
+        plain = column.shift(steps)
+        if self.segments is None:
+            return plain
+        within = column.groupby(self.segments).shift(steps)
+        self.cut |= (plain.notna() & within.isna()).to_numpy()
+        return within
