@@ -56,6 +56,7 @@ const FACTORS: Parameter = Parameter::elements(
 /// The registry entry.
 pub const ABOUT: About = About {
     forgetting_factor: true,
+    squares: 1,
     cost: "O(n^3)",
     guarantees: Some(Guarantees {
         proper: Guarantee::ALWAYS,

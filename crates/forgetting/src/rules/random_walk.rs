@@ -60,6 +60,7 @@ const BOUND: Parameter = Parameter {
 
 /// The registry entry.
 pub const ABOUT: About = About {
+    squares: 3,
     cost: "O((p + r) n^2), r = rank of process_noise",
     guarantees: Some(Guarantees {
         proper: Guarantee::when(
