@@ -138,7 +138,7 @@ impl Rls {
     /// the estimate.
     #[getter]
     fn covariance<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        output(py, self.estimator.covariance())
+        output(py, self.estimator.covariance().map_err(raise)?)
     }
 
     /// The units (n,) in which regressors are measured, 1 for one that has always been 0; None where an
@@ -151,7 +151,7 @@ impl Rls {
     /// The factor of the covariance: U (n, n) unit upper triangular and D (n,) positive, with
     /// P = U @ diag(D) @ U.T.
     fn factor<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
-        let (unit, diagonal) = self.estimator.factor();
+        let (unit, diagonal) = self.estimator.factor().map_err(raise)?;
         Ok((output(py, unit)?, output(py, diagonal)?))
     }
 
@@ -324,11 +324,11 @@ impl Rls {
         Ok((restore, (slf.borrow().to_bytes(slf.py())?,)))
     }
 
-    fn __copy__(&self) -> Self {
-        Self { estimator: self.estimator.clone() }
+    fn __copy__(&self) -> PyResult<Self> {
+        Ok(Self { estimator: self.estimator.copy().map_err(raise)? })
     }
 
-    fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> Self {
+    fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> PyResult<Self> {
         self.__copy__()
     }
 

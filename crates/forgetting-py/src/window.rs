@@ -35,7 +35,7 @@ impl InformationWindow {
     /// The sum, (n, n), in units of phi**2.
     #[getter]
     fn information<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        output(py, self.0.information())
+        output(py, self.0.information().map_err(raise)?)
     }
 
     /// Size below which an eigenvalue of the sum cannot be told from rounding.

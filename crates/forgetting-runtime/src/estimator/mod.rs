@@ -9,7 +9,7 @@ pub use health::Health;
 pub use record::{Missing, Run};
 
 use crate::choice::{has_function, Description};
-use crate::configure;
+use crate::configure::{self, check_copies};
 use crate::error::Error;
 use crate::number::{each, make, ByType, Family, Number};
 use crate::number::{Array, NumberType, View};
@@ -66,6 +66,15 @@ impl Estimator {
     /// [`Error::Core`] when a part of it is a function of the user's.
     pub fn to_bytes(&self) -> Result<Vec<u8>, Error> {
         Ok(each!(&self.typed, e => e.to_bytes())?)
+    }
+
+    /// A copy.
+    ///
+    /// # Errors
+    /// [`Error::Core`] when there is not enough memory.
+    pub fn copy(&self) -> Result<Self, Error> {
+        each!(&self.typed, e => check_copies(e, 1))?;
+        Ok(self.clone())
     }
 
     /// Whether a function of the user's is called in the middle of a sample.
@@ -164,8 +173,10 @@ impl Estimator {
     }
 
     /// P, (n, n), in units of 1/φ²: times the noise variance, it is the covariance of θ.
-    #[must_use]
-    pub fn covariance(&self) -> Array {
+    ///
+    /// # Errors
+    /// [`Error::Core`] when there is not enough memory.
+    pub fn covariance(&self) -> Result<Array, Error> {
         each!(&self.typed, e => covariance(e))
     }
 
@@ -177,8 +188,10 @@ impl Estimator {
     }
 
     /// U (n, n), unit upper triangular, and the diagonal of D (n,), positive, with P = U D Uᵀ.
-    #[must_use]
-    pub fn factor(&self) -> (Array, Array) {
+    ///
+    /// # Errors
+    /// [`Error::Core`] when there is not enough memory.
+    pub fn factor(&self) -> Result<(Array, Array), Error> {
         each!(&self.typed, e => factor(e))
     }
 

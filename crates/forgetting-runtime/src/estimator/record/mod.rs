@@ -7,6 +7,7 @@ mod shapes;
 
 pub use run::Run;
 
+use crate::configure::check_copies;
 use crate::error::Error;
 use crate::number::{Number, View};
 use forgetting::{AnyEstimator, Outcome};
@@ -62,6 +63,8 @@ pub(super) fn run<T: Number>(
         _ => RecordNoise::Unit,
     };
     let record = Record { sizes, phi: &phi, y: &y, noise, missing };
+    // the state of before is kept until all is done
+    check_copies(estimator, 1)?;
     outputs.prepare(estimator);
     let taken = estimator.all_or_nothing(|estimator| take(estimator, &record, &mut outputs));
     estimator.keep_innovations(false);
