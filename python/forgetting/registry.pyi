@@ -192,7 +192,8 @@ class ConstantTrace(Rule):
     - Proper (A1): no. It can shrink P: where a direction has less variance than before, the
       rule claims information that no sample brought.
     - P̄ bounded above without excitation (A2): always: floor·I ≤ P̄ ≤ (n·level − (n − 1)·floor) I.
-    - P bounded below (A3): if φ is bounded.
+    - P bounded below (A3): if φ is bounded: by min(1/(β + 1/floor), 1/(β + 1/λ_min(P₀))) for
+      φ̄ᵀφ̄ ≤ β I.
     - Cost: O(n³), for adding c₂ I to the factor. State: P alone.
     - Use it where tracking must never slow down and noise is small. The gain stays high however
       long the parameters rest.
@@ -248,8 +249,9 @@ class CovarianceResetting(Rule):
 
     - Proper (A1): if P ≤ P_∞ at every reset and the rule is proper.
     - P̄ bounded above without excitation (A2): if the rule's is.
-    - P bounded below (A3): if φ is bounded and the criterion is period or smallest_eigenvalue, or
-      the rule's P is.
+    - P bounded below (A3): if φ is bounded and the rule's P is; or the rule is proper and the
+      criterion is period, by 1/(N β + 1/p), or smallest_eigenvalue, by 1/(β + 1/min(h, p)), for
+      φ̄ᵀφ̄ ≤ β I and P₀, P_∞ ≥ p I.
     - Cost: that of the rule; and O(n²/2) for trace, O(p n²/2) for change, O(n³/3) for
       smallest_eigenvalue. State: the rule's, k, g and v.
     - Use it for parameters that jump: `change` with any rule for the time between the jumps.
@@ -324,8 +326,10 @@ class CyclicResetting(Rule):
 
     - Proper (A1): no. One cycle without data is R → λʳ R + (1 − λʳ) R_∞ exactly, but within it
       information is added before it is due.
-    - P̄ bounded above without excitation (A2): if R_∞ > 0.
-    - P bounded below (A3): if λ_k ≤ λ_max < 1 and φ is bounded.
+    - P̄ bounded above without excitation (A2): if R_∞ > 0: by 1/(λʳ⁻¹ μ), μ = λ_min(R_∞), for a
+      constant λ and P₀ ≤ λʳ⁻¹/μ I. Within a cycle P may exceed 1/μ.
+    - P bounded below (A3): if λ_k ≤ λ_max < 1 and φ is bounded: P ≥ (1 − λ_max)/(β + v) I once it
+      is, for φ̄ᵀφ̄ ≤ β I and v_k v_kᵀ ≤ v I.
     - Cost: O((p + 1) n²). State: P and the place in the cycle.
     - Use it in the place of `exponential_resetting` when n is large. With λ_k that varies within
       a cycle the inserted weights are those of each sample's λ_k, and the cycle is approximate.
@@ -1017,7 +1021,8 @@ class Multiple(Rule):
       blkdiag(λ_b I); for two parameters: (1 − λ₁)(1 − λ₂) ≥ R₁₂²/(R₁₁R₂₂). That fails as soon as
       regressors are correlated and factors near 1. `component` is always proper.
     - P̄ bounded above without excitation (A2): no: a block without excitation winds up.
-    - P bounded below (A3): if λ_b ≤ λ_max < 1 and φ is bounded.
+    - P bounded below (A3): if λ_b ≤ λ_max < 1 and φ is bounded: P ≥ (1 − λ_max)/β I for φ̄ᵀφ̄ ≤ β I,
+      once it is.
     - Cost: O(p n²), of which the rule itself takes O(n²), or O(p Σ n_b²) and writing U anew.
       State: P and a factor of each block.
     - Use it to reproduce work that used it. It treats the blocks as if they were uncorrelated,

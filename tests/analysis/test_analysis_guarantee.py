@@ -38,8 +38,18 @@ def test_a_rule_states_no_bound_that_it_denies(name):
 
 
 def test_what_has_no_formula_says_so():
-    for name in ("cyclic_resetting", "multiple", "covariance_resetting", "restricted"):
+    for name in ("restricted", "variable_direction"):
         assert str(_bounds(_rule(name))) == SILENT
+
+
+def test_the_first_sample_of_constant_trace_is_measured_with_the_first_covariance():
+    rule = fg.ConstantTrace(10.0, 1.0)
+    constants = {"parameters": 1, "forgetting_factors": (1.0, 1.0), "regressor_bound": 7.0}
+    found = guaranteed_bounds(rule, 0.05, **constants)
+    est = fg.RLS(1, rule=rule, initial_covariance=0.05)
+    est.update([7.0**0.5], 0.0)
+    assert est.covariance.item() == pytest.approx(found.lower, rel=1e-14)
+    assert found.lower == pytest.approx(1.0 / 27.0, rel=1e-14)
 
 
 def test_the_eigenvalues_of_a_full_matrix_are_those_of_the_matrix():

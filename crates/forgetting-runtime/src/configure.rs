@@ -1,16 +1,17 @@
 //! An estimator from its settings.
 
-use crate::choice::Choice;
+use crate::choice::{Choice, Value};
 use crate::error::Error;
 use crate::function::{for_gate, for_rate, for_rule};
 use crate::number::{Number, View};
-use crate::settings::Settings;
+use crate::settings::{ForgettingFactor, Settings};
 use crate::shape;
+use forgetting::choice::About;
 use forgetting::gates::{AnyGate, GATES};
 use forgetting::rates::{AnyRate, RATES};
 use forgetting::rules::{Rule, RULES};
 use forgetting::weightings::{AnyWeighting, WEIGHTINGS};
-use forgetting::{AnyEstimator, Dynamic, Estimator, Memory, Prior};
+use forgetting::{AnyEstimator, Dynamic, Estimator, Forgetting, Memory, Prior};
 
 /// The estimator that `settings` say, with `initial_covariance` and `initial_theta` in the place
 /// of those in the settings.
@@ -22,6 +23,10 @@ pub(crate) fn estimator<T: Number>(
     let Settings { parameters, rows, targets, .. } = *settings;
     let memory = Dynamic::new(parameters, rows, targets)?;
     let choice = settings.rule();
+    // P₀ as a matrix is factored on the way
+    let dense = initial_covariance.is_some_and(|covariance| covariance.shape().len() > 1);
+    let kept = if dense { 2 } else { 0 };
+    memory.check_room(squares(&choice, &settings.forgetting_factor) + kept, 1)?;
     let (rule, rate) = (rule(&choice, memory)?, settings.forgetting_factor.rate(&choice.name));
     let rate = make_rate(&rate, memory)?;
     let weighting = weighting(settings.weighting.as_ref(), memory)?;
@@ -36,6 +41,36 @@ pub(crate) fn estimator<T: Number>(
         estimator.enable_monitor();
     }
     Ok(estimator)
+}
+
+/// How many times n x n numbers a rule, what is inside it and a rate keep.
+fn squares(rule: &Choice, factor: &ForgettingFactor) -> usize {
+    let inner = rule.parameters.iter().map(|(_, value)| match value {
+        Value::Word(name) | Value::Choice(Choice { name, .. }) => name.as_str(),
+        _ => "",
+    });
+    let rate = factor.rate(&rule.name);
+    let of = |registry: &[About], name: &str| {
+        registry.iter().find(|about| about.name == name).map_or(0, |about| about.squares)
+    };
+    let rules = inner.chain([rule.name.as_str()]).map(|name| of(RULES, name));
+    rules.sum::<usize>() + of(RATES, &rate.name)
+}
+
+/// Refuses a copy of `estimator` for which there is no memory, or `count` of them.
+pub(crate) fn check_copies<T: Number>(
+    estimator: &AnyEstimator<T>,
+    count: usize,
+) -> Result<(), forgetting::Error> {
+    let mut squares = estimator.rate().about().squares + estimator.rule().about().squares;
+    estimator.rule().describe(&mut |_, value| {
+        if let forgetting::choice::Value::Choice { name, .. } = value {
+            let inner = RULES.iter().find(|about| about.name == name);
+            squares += inner.map_or(0, |about| about.squares);
+        }
+    });
+    // P₀ may be a matrix
+    estimator.prior().memory().check_room(squares + 1, count)
 }
 
 pub(crate) fn rule<T: Number>(

@@ -5,6 +5,7 @@ use crate::number::{Array, Elements, Number, View};
 use crate::settings::size;
 use crate::shape;
 use crate::update::check_gamma;
+use forgetting::memory::zeros;
 use forgetting::Noise;
 
 /// The sum of φᵀφ over the last samples, in O(n²) a sample.
@@ -46,13 +47,15 @@ impl InformationWindow {
     }
 
     /// The sum, (n, n), in units of φ².
-    #[must_use]
-    pub fn information(&self) -> Array {
+    ///
+    /// # Errors
+    /// [`Error::Core`] when there is not enough memory.
+    pub fn information(&self) -> Result<Array, Error> {
         let n = self.parameters;
-        let mut information = vec![0.0; n * n];
+        let mut information = zeros(n * n)?;
         let written = self.window.information(&mut information);
         debug_assert!(written.is_ok(), "there is room for n x n numbers");
-        Array { shape: vec![n, n], elements: Elements::F64(information) }
+        Ok(Array { shape: vec![n, n], elements: Elements::F64(information) })
     }
 
     /// The size below which an eigenvalue of the sum cannot be told from rounding.

@@ -127,7 +127,7 @@ fn initial_values_have_their_shapes() {
     let covariance = |numbers, shape| {
         let initial_covariance = Some(View::new("initial_covariance", numbers, shape).unwrap());
         let settings = Settings { initial_covariance, targets: 2, ..Settings::new(2) };
-        Estimator::new(&settings).map(|estimator| estimator.covariance().elements.to_f64())
+        Estimator::new(&settings).map(|estimator| estimator.covariance().unwrap().elements.to_f64())
     };
     assert_eq!(covariance(&[3.0][..], &[]).unwrap(), [3.0, 0.0, 0.0, 3.0]);
     assert_eq!(covariance(&two[..], &[2]).unwrap(), [1.0, 0.0, 0.0, 2.0]);
@@ -150,7 +150,7 @@ fn p_is_its_factor_multiplied_out() {
     let four = [2.0, 0.5, 0.5, 1.0];
     let initial_covariance = Some(View::new("initial_covariance", &four[..], &[2, 2]).unwrap());
     let estimator = Estimator::new(&Settings { initial_covariance, ..Settings::new(2) }).unwrap();
-    let (unit, diagonal) = estimator.factor();
+    let (unit, diagonal) = estimator.factor().unwrap();
     let (u, d) = (unit.elements.to_f64(), diagonal.elements.to_f64());
     assert_eq!((unit.shape, diagonal.shape), (vec![2, 2], vec![2]));
     for i in 0..2 {

@@ -75,7 +75,7 @@ fn streams_differ_in_factor_and_prior_as_estimators_do() {
                 assert_eq!(fleet.state(i as i64).unwrap(), estimator.to_bytes().unwrap());
                 let own = fleet.get(i as i64 - COUNT as i64).unwrap();
                 assert_eq!(own.to_bytes().unwrap(), estimator.to_bytes().unwrap());
-                assert_eq!(fleet.covariance(i as i64).unwrap(), estimator.covariance());
+                assert_eq!(fleet.covariance(i as i64).unwrap(), estimator.covariance().unwrap());
             }
             let health = fleet.health();
             let largest: Vec<_> = each.iter().map(|estimator| estimator.extremes().0).collect();

@@ -54,7 +54,7 @@ fn a_run_is_its_updates() {
                 assert_eq!(row(error, k), doubles(&update.error.array()));
                 assert_eq!(row(whitened, k), doubles(&update.whitened_innovation.array()));
                 assert_eq!(row(theta, k), doubles(&other.theta()));
-                assert_eq!(row(&outputs[10], k), doubles(&other.covariance()));
+                assert_eq!(row(&outputs[10], k), doubles(&other.covariance().unwrap()));
                 assert_eq!(doubles(leverage)[k], update.leverage);
                 assert_eq!(doubles(factor)[k], update.forgetting_factor);
                 let code = update.skipped.map_or(0.0, |reason| f64::from(reason.code()));
@@ -170,7 +170,7 @@ fn a_prediction_has_the_shape_of_its_regressors() {
     }
     assert_eq!(estimator.predict(view(&phi[..2], &[2])).unwrap().shape, [2]);
     let error = estimator.predict(view(&phi, &[2, 3])).unwrap_err();
-    assert_eq!(error.to_string(), "phi has shape [2, 3], expected (..., 2)");
+    assert_eq!(error.to_string(), "phi has shape (2, 3), expected (..., 2)");
     let error = View::new("phi", &phi[..], &[2, 2]).unwrap_err();
     assert_eq!(error.to_string(), "phi has 6 elements, expected 4");
 }

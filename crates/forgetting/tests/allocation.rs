@@ -1,6 +1,6 @@
 //! An update allocates nothing, whatever the rule.
 
-use forgetting::choice::Defaults;
+use forgetting::choice::{Defaults, Kind, Value, Values};
 use forgetting::gates::{AnyGate, GATES};
 use forgetting::rates::{AnyRate, RATES};
 use forgetting::rules::{Rule, RULES};
@@ -13,15 +13,24 @@ struct Counting;
 
 thread_local! {
     static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
+    /// bytes in use now, and the most so far
+    static BYTES: Cell<(isize, isize)> = const { Cell::new((0, 0)) };
+}
+
+fn note(bytes: isize) {
+    let (now, most) = BYTES.with(Cell::get);
+    BYTES.with(|cell| cell.set((now + bytes, most.max(now + bytes))));
 }
 
 // SAFETY: every call is the system allocator's; counting changes nothing.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         ALLOCATIONS.with(|count| count.set(count.get() + 1));
+        note(layout.size() as isize);
         unsafe { System.alloc(layout) }
     }
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        note(-(layout.size() as isize));
         unsafe { System.dealloc(pointer, layout) }
     }
 }
@@ -111,5 +120,51 @@ fn no_gate_and_nothing_that_is_kept_allocates() {
             }
         });
         assert_eq!(count, 0, "{}", about.name);
+    }
+}
+
+/// The most bytes that are in use at once while `work` makes something.
+fn peak<X>(work: impl FnOnce() -> X) -> isize {
+    BYTES.with(|cell| cell.set((0, 0)));
+    let made = work();
+    let (_, most) = BYTES.with(Cell::get);
+    drop(made);
+    most
+}
+
+/// What is asked for before an estimator is made, so that there is an error and no abort, is what
+/// making it takes: not less, and not many times as much.
+#[test]
+fn the_room_that_is_asked_for_is_the_room_that_is_taken() {
+    const N: usize = 300;
+    let square = (N * N * 8) as isize;
+    let inner = |name: &str| RULES.iter().find(|about| about.name == name).unwrap().squares;
+    for about in RULES {
+        for around in ["none", "matrix_forgetting"] {
+            let is_around = about.parameters.iter().any(|p| p.kind == Kind::Rule);
+            if !is_around && around != "none" {
+                continue;
+            }
+            struct Around<'a>(&'a str, bool);
+            impl Values for Around<'_> {
+                fn get(&self, name: &str) -> Option<Value<'_>> {
+                    (self.1 && name == "rule").then_some(Value::Word(self.0))
+                }
+            }
+            let memory = Dynamic::<f64>::new(N, 1, 1).unwrap();
+            let given = Around(around, is_around);
+            let most = peak(|| {
+                let rule = Rule::named(about.name, &given, memory).ok()?;
+                let rate = AnyRate::named("constant", &Defaults, memory).unwrap();
+                Some(Estimator::new(rule, rate, Equal::new(), Prior::scalar(memory, 10.0).unwrap()))
+            });
+            let squares = about.squares + if is_around { inner(around) } else { 0 };
+            let asked = (squares + 1) as isize * square;
+            let name = about.name;
+            assert!(most < asked, "{name}: {most} bytes of {asked}");
+            if most > square / 2 {
+                assert!(3 * most > asked, "{name}: {most} bytes of {asked}");
+            }
+        }
     }
 }

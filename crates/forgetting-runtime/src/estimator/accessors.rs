@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use crate::number::{Array, Number, View};
+use forgetting::memory::zeros;
 use forgetting::{AnyEstimator, Memory};
 
 pub(super) fn theta<T: Number>(estimator: &AnyEstimator<T>) -> Array {
@@ -23,12 +24,12 @@ pub(super) fn by_parameter<T: Number>(estimator: &AnyEstimator<T>, numbers: &mut
     numbers.extend((0..n).flat_map(|i| (0..m).map(move |t| theta[t * n + i])));
 }
 
-pub(crate) fn covariance<T: Number>(estimator: &AnyEstimator<T>) -> Array {
+pub(crate) fn covariance<T: Number>(estimator: &AnyEstimator<T>) -> Result<Array, Error> {
     let factor = estimator.express(estimator.factor());
     let n = factor.parameters();
-    let mut dense = vec![T::ZERO; n * n];
+    let mut dense: Vec<T> = zeros(n * n)?;
     factor.reconstruct(&mut dense);
-    T::array(dense, &[n, n])
+    Ok(T::array(dense, &[n, n]))
 }
 
 /// s of these 1/s.
@@ -36,17 +37,17 @@ pub(crate) fn units<T: Number>(reciprocals: &[T]) -> Array {
     T::array(reciprocals.iter().map(|&x| T::ONE / x).collect(), &[reciprocals.len()])
 }
 
-pub(super) fn factor<T: Number>(estimator: &AnyEstimator<T>) -> (Array, Array) {
+pub(super) fn factor<T: Number>(estimator: &AnyEstimator<T>) -> Result<(Array, Array), Error> {
     let factor = estimator.express(estimator.factor());
     let n = factor.parameters();
-    let mut dense = vec![T::ZERO; n * n];
+    let mut dense: Vec<T> = zeros(n * n)?;
     for j in 0..n {
         dense[j * n + j] = T::ONE;
         for i in 0..j {
             dense[i * n + j] = factor.unit(i, j);
         }
     }
-    (T::array(dense, &[n, n]), T::array(factor.diagonal_elements().to_vec(), &[n]))
+    Ok((T::array(dense, &[n, n]), T::array(factor.diagonal_elements().to_vec(), &[n])))
 }
 
 pub(super) fn predict<T: Number>(
@@ -59,7 +60,7 @@ pub(super) fn predict<T: Number>(
         return Err(Error::shape("phi", phi.shape(), format!("(..., {n})")));
     };
     let phi = T::read(phi.numbers());
-    let mut prediction = vec![T::ZERO; phi.len() / n * m];
+    let mut prediction: Vec<T> = zeros(phi.len() / n * m)?;
     estimator.predict(&phi, &mut prediction)?;
     let mut shape = regressors.to_vec();
     if m > 1 {

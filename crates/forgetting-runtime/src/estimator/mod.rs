@@ -6,10 +6,10 @@ pub(crate) mod record;
 
 pub(crate) use accessors::{covariance, units};
 pub use health::Health;
-pub use record::{Missing, Run};
+pub use record::{GoOn, Missing, Run};
 
 use crate::choice::{has_function, Description};
-use crate::configure;
+use crate::configure::{self, check_copies};
 use crate::error::Error;
 use crate::number::{each, make, ByType, Family, Number};
 use crate::number::{Array, NumberType, View};
@@ -68,6 +68,15 @@ impl Estimator {
         Ok(each!(&self.typed, e => e.to_bytes())?)
     }
 
+    /// A copy.
+    ///
+    /// # Errors
+    /// [`Error::Core`] when there is not enough memory.
+    pub fn copy(&self) -> Result<Self, Error> {
+        each!(&self.typed, e => check_copies(e, 1))?;
+        Ok(self.clone())
+    }
+
     /// Whether a function of the user's is called in the middle of a sample.
     ///
     /// Such a function may do anything: an interface then passes copies of arrays that it can
@@ -110,12 +119,26 @@ impl Estimator {
     /// not fit; the estimator is as it was before the record.
     pub fn run(
         &mut self,
-        (phi, y, gamma): (View<'_>, View<'_>, Option<View<'_>>),
+        record: (View<'_>, View<'_>, Option<View<'_>>),
         missing: Missing,
         outputs: Option<&[&str]>,
     ) -> Result<Run, Error> {
+        self.run_while(record, missing, outputs, &mut || Ok(()))
+    }
+
+    /// [`Estimator::run`], asking a few times a second whether to go on.
+    ///
+    /// # Errors
+    /// Those of [`Estimator::run`], and [`Error::Sample`] with what `go_on` answers.
+    pub fn run_while(
+        &mut self,
+        record: (View<'_>, View<'_>, Option<View<'_>>),
+        missing: Missing,
+        outputs: Option<&[&str]>,
+        go_on: GoOn<'_>,
+    ) -> Result<Run, Error> {
         let outputs = outputs.unwrap_or(&Run::DEFAULT_OUTPUTS);
-        each!(&mut self.typed, e => record::run(e, (phi, y, gamma), missing, outputs))
+        each!(&mut self.typed, e => record::run(e, record, missing, outputs, go_on))
     }
 
     /// φθ of one regressor or many: (..., n) gives (...) or (..., m).
@@ -164,8 +187,10 @@ impl Estimator {
     }
 
     /// P, (n, n), in units of 1/φ²: times the noise variance, it is the covariance of θ.
-    #[must_use]
-    pub fn covariance(&self) -> Array {
+    ///
+    /// # Errors
+    /// [`Error::Core`] when there is not enough memory.
+    pub fn covariance(&self) -> Result<Array, Error> {
         each!(&self.typed, e => covariance(e))
     }
 
@@ -177,8 +202,10 @@ impl Estimator {
     }
 
     /// U (n, n), unit upper triangular, and the diagonal of D (n,), positive, with P = U D Uᵀ.
-    #[must_use]
-    pub fn factor(&self) -> (Array, Array) {
+    ///
+    /// # Errors
+    /// [`Error::Core`] when there is not enough memory.
+    pub fn factor(&self) -> Result<(Array, Array), Error> {
         each!(&self.typed, e => factor(e))
     }
 

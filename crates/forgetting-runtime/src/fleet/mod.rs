@@ -16,7 +16,8 @@ use crate::estimator::{covariance, saved_type, Estimator};
 use crate::number::{both, each, make, map, ByType, Family, Number};
 use crate::number::{Array, Elements, NumberType, View};
 use crate::settings::Settings;
-use forgetting::fleet::check_kind;
+use forgetting::fleet::{check_kind, check_stream};
+use forgetting::saved::least_length;
 use forgetting::AnyEstimator;
 use make::check_functions;
 use streams::Streams;
@@ -145,7 +146,7 @@ impl Fleet {
     /// [`Error::NoStream`].
     pub fn covariance(&self, stream: i64) -> Result<Array, Error> {
         let stream = self.position(stream)?;
-        Ok(each!(&self.typed, streams => covariance(&streams.get(stream))))
+        each!(&self.typed, streams => covariance(&streams.get(stream)))
     }
 
     /// φθ of each stream, (count,), for `phi` (count, n).
@@ -265,7 +266,14 @@ fn other_type() -> Error {
 /// Streams of these states.
 fn restore<T: Number>(fresh: &[u8], states: &[&[u8]]) -> Result<Streams<T>, Error> {
     let mut streams = Streams::of(AnyEstimator::<T>::from_bytes(fresh)?);
+    check_stream(streams.fresh())?;
     check_functions(streams.fresh())?;
+    // before there is room for as many: all are of the same sizes
+    let least = least_length(streams.fresh());
+    if let Some(stream) = states.iter().position(|state| state.len() < least) {
+        let error = forgetting::Error::State { reason: "it is truncated" };
+        return Err(Error::Stream { stream, error });
+    }
     streams.grow(states.len())?;
     for (stream, state) in states.iter().enumerate() {
         let estimator = AnyEstimator::from_bytes(state);

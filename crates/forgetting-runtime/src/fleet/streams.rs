@@ -3,6 +3,7 @@
 
 use super::health::StreamHealth;
 use super::{estimators, threads};
+use crate::configure::check_copies;
 use crate::number::{Array, Elements, Number};
 use forgetting::fleet::{check_kind, Fleet, Outputs, Part, Samples};
 use forgetting::rates::{AnyRate, Constant, Rate};
@@ -63,6 +64,7 @@ impl<T: Number> Streams<T> {
             Self::Blocks(fleet) => fleet.grow(count),
             Self::Estimators { fresh, each } => {
                 each.try_reserve(count).map_err(|_| Error::Memory)?;
+                check_copies(fresh, count)?;
                 each.extend(std::iter::repeat_n(fresh.as_ref(), count).cloned());
                 Ok(())
             }

@@ -21,6 +21,8 @@ pub struct About {
     pub largest_rows: Option<usize>,
     /// operations per sample of a rule; empty where only the header says them
     pub cost: &'static str,
+    /// how many n x n numbers it keeps, another rule's that it is around not counted
+    pub squares: usize,
     /// what a rule guarantees; nothing where the choice does not forget
     pub guarantees: Option<Guarantees>,
 }
@@ -37,6 +39,7 @@ impl About {
             forgetting_factor: false,
             largest_rows: None,
             cost: "",
+            squares: 0,
             guarantees: None,
         }
     }

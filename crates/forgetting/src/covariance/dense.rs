@@ -58,6 +58,33 @@ impl<M: Memory> Factor<M> {
         Ok(())
     }
 
+    /// P ← diag(`variances`), n numbers. O(n²).
+    ///
+    /// # Errors
+    /// [`Error::Indefinite`] unless each is positive, [`Error::Range`] when their sum is too large;
+    /// P is as it was.
+    pub fn replace_diagonal(
+        &mut self,
+        variances: &[M::Real],
+        name: &'static str,
+    ) -> Result<(), Error> {
+        if let Some(x) = variances.iter().find(|&&x| !(x > M::Real::ZERO)) {
+            let pivot = x.to_f64();
+            return Err(Error::Indefinite { parameter: name, pivot, allowed: "positive definite" });
+        }
+        let trace = variances.iter().fold(M::Real::ZERO, |sum, &x| sum + x);
+        if !(trace < M::Real::CEILING) {
+            let limit = M::Real::CEILING.to_f64();
+            return Err(Error::Range { parameter: name, value: trace.to_f64(), limit });
+        }
+        self.clear_columns();
+        for (j, &x) in variances.iter().enumerate() {
+            self.put_diagonal(j, x);
+        }
+        self.trace_bound = trace;
+        Ok(())
+    }
+
     /// P⁻¹ ← the n x n matrix `information`, of which it reads the lower triangle and which it
     /// uses up. O(n³/3).
     ///

@@ -27,10 +27,9 @@ pub fn check_kind<T: Kernels>(
         (true, true) => Ok(true),
         _ => Ok(rate(fresh)? == rate(estimator)?),
     };
+    check_stream(estimator)?;
     let reason = if own.parameters() != of_fleet.parameters() {
         "a stream has as many parameters as its fleet"
-    } else if own != of_fleet {
-        "a stream has one row and one target"
     } else if rule(fresh)? != rule(estimator)? {
         "a stream has the rule of its fleet, with the same parameters"
     } else if !same_rate()? {
@@ -39,6 +38,20 @@ pub fn check_kind<T: Kernels>(
         "a stream has the weighting of its fleet"
     } else if gate(fresh)? != gate(estimator)? {
         "a stream has the gate of its fleet"
+    } else {
+        return Ok(());
+    };
+    Err(Error::Unsupported { reason })
+}
+
+/// Refuses an `estimator` that can be a stream of no fleet.
+///
+/// # Errors
+/// [`Error::Unsupported`] says what it has that a stream has not.
+pub fn check_stream<T: Kernels>(estimator: &AnyEstimator<T>) -> Result<(), Error> {
+    let memory = estimator.prior().memory();
+    let reason = if (memory.rows(), memory.targets()) != (1, 1) {
+        "a stream has one row and one target"
     } else if estimator.health().is_some() {
         "a stream of a fleet is not monitored"
     } else {

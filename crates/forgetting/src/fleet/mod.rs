@@ -12,7 +12,7 @@ mod read;
 mod transfer;
 
 pub use forgetting_kernels::kernel::lanes::streams::{Outputs, Samples, REFUSED};
-pub use kind::check_kind;
+pub use kind::{check_kind, check_stream};
 pub use part::{Part, Parts};
 
 use crate::covariance::Prior;

@@ -39,6 +39,47 @@ impl<T: Real> Dynamic<T> {
     }
 }
 
+impl<T: Real> Dynamic<T> {
+    /// Refuses sizes for which there is no memory, before any is taken: for `count` estimators that
+    /// keep `squares` times n x n numbers beside P.
+    ///
+    /// # Errors
+    /// [`Error::Memory`].
+    pub fn check_room(&self, squares: usize, count: usize) -> Result<(), Error> {
+        let Self { parameters: n, rows: p, targets: m, .. } = *self;
+        // each at most 2³⁰
+        let of_rows = p * (2 * p + 8 * n + 6 * m);
+        let numbers = (squares + 1) as u64 * (n * n) as u64 + (of_rows + 4 * m * n) as u64;
+        check_room::<T>(numbers.saturating_mul(count as u64))
+    }
+}
+
+/// Refuses so many numbers if there is no memory for them.
+///
+/// # Errors
+/// [`Error::Memory`].
+fn check_room<T: Real>(numbers: u64) -> Result<(), Error> {
+    /// Bytes that there always are.
+    const SMALL: u64 = 1 << 20;
+    let bytes = numbers.saturating_mul(T::BYTES as u64);
+    if bytes <= SMALL {
+        return Ok(());
+    }
+    let bytes = usize::try_from(bytes).map_err(|_| Error::Memory)?;
+    Vec::<u8>::new().try_reserve_exact(bytes).map_err(|_| Error::Memory)
+}
+
+/// So many zeros.
+///
+/// # Errors
+/// [`Error::Memory`] when there is no memory for them.
+pub fn zeros<X: Clone + Default>(length: usize) -> Result<Vec<X>, Error> {
+    let mut zeros = Vec::new();
+    zeros.try_reserve_exact(length).map_err(|_| Error::Memory)?;
+    zeros.resize(length, X::default());
+    Ok(zeros)
+}
+
 /// Numbers on the heap, the first of them at the start of a cache line: a vector that lies
 /// across two lines costs twice.
 #[derive(Debug)]

@@ -12,7 +12,7 @@ mod fixed;
 pub mod state;
 
 #[cfg(feature = "alloc")]
-pub use dynamic::{Aligned, Dynamic};
+pub use dynamic::{zeros, Aligned, Dynamic};
 pub use fixed::{Fixed, Grid, Packed, Size};
 
 /// A block of numbers that is read and written as one slice.

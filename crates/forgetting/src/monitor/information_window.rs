@@ -13,9 +13,9 @@
 
 use crate::choice::{Parameter, Range};
 use crate::error::Error;
-use crate::memory::Dynamic;
+use crate::memory::{zeros, Dynamic};
 use crate::sample::{whiten, Noise, Sample};
-use alloc::{vec, vec::Vec};
+use alloc::vec::Vec;
 use forgetting_kernels::{Kernels, Real};
 
 /// A sliding window over whitened regressors.
@@ -39,19 +39,20 @@ impl<T: Real> InformationWindow<T> {
     /// A window of `window` samples of `rows` x `parameters` numbers.
     ///
     /// # Errors
-    /// [`Error::Value`] names what is 0 or larger than 2²⁰.
+    /// [`Error::Value`] names what is 0 or larger than 2²⁰, [`Error::Memory`] when there is none.
     pub fn new(parameters: usize, rows: usize, window: usize) -> Result<Self, Error> {
         const RANGE: Range = Range::open(0.5, 1_048_576.5, "whole numbers from 1 to 1048576");
         for (name, size) in [("parameters", parameters), ("rows", rows), ("window", window)] {
             Parameter::whole(name, 1.0, RANGE, "").check(size as f64)?;
         }
+        let length = window.checked_mul(rows).and_then(|all| all.checked_mul(parameters));
         Ok(Self {
             parameters,
             rows,
             window,
-            samples: vec![T::ZERO; window * rows * parameters],
-            sum: vec![T::ZERO; parameters * parameters],
-            fresh: vec![T::ZERO; parameters * parameters],
+            samples: zeros(length.ok_or(Error::Memory)?)?,
+            sum: zeros(parameters * parameters)?,
+            fresh: zeros(parameters * parameters)?,
             largest: T::ZERO,
             count: 0,
         })
@@ -97,8 +98,8 @@ impl<T: Real> InformationWindow<T> {
     {
         Error::check_length("phi", phi.len(), self.rows * self.parameters)?;
         let memory = Dynamic::new(self.parameters, self.rows, 1)?;
-        let (mut whitened, mut root) = (phi.to_vec(), vec![T::ZERO; self.rows * self.rows]);
-        let mut errors = vec![T::ZERO; self.rows];
+        let (mut whitened, mut root) = (phi.to_vec(), zeros(self.rows * self.rows)?);
+        let mut errors = zeros(self.rows)?;
         whiten(&mut Sample::new(memory, &mut whitened, &mut errors), noise, &mut root)?;
         self.add(&whitened)
     }

@@ -77,9 +77,11 @@ impl<T: Real> Averages<T> {
         self
     }
 
-    /// Whether both can be averages of what [`Evidence`](super::Evidence) tells.
-    pub fn are_sound(&self) -> bool {
-        [self.fast, self.slow].iter().all(|x| *x >= T::ZERO && *x <= T::CEILING)
+    /// Whether both can be averages of numbers that are at most `most`.
+    pub fn are_sound(&self, most: T) -> bool {
+        // an average rounds; no power of two is ever that near to the range's end
+        let most = most + most * T::EPSILON.sqrt();
+        [self.fast, self.slow].iter().all(|x| *x >= T::ZERO && *x <= most)
     }
 
     /// Shows both to `visitor`.

@@ -38,7 +38,7 @@ use forgetting_kernels::kernel::functions::{add_scaled, dot};
 const LARGEST: Parameter = largest(0.9999, Range::FRACTION);
 
 /// The registry entry.
-pub const ABOUT: About = About::new(&[STEP_SIZE, SMALLEST, LARGEST]);
+pub const ABOUT: About = About { squares: 1, ..About::new(&[STEP_SIZE, SMALLEST, LARGEST]) };
 
 /// λ down the squared error; see [`self`](crate::rates::exact_gradient).
 #[derive(Clone, Copy, Debug)]

@@ -86,7 +86,7 @@ impl<T: Real> State<T> for Slope<T> {
 
     fn is_sound(&self) -> bool {
         let in_range = |x: &T| x.abs() <= T::CEILING;
-        self.errors.are_sound()
+        self.errors.are_sound(T::CEILING)
             && [self.r, self.t, self.gradient].iter().all(in_range)
             && is_factor(self.last)
     }

@@ -88,7 +88,10 @@ impl<T: Real> State<T> for Powers<T> {
     }
 
     fn is_sound(&self) -> bool {
-        self.errors.are_sound() && self.spreads.are_sound() && is_factor(self.next)
+        // what evidence tells is at most the ceiling, and a spread is squared
+        self.errors.are_sound(T::CEILING)
+            && self.spreads.are_sound(T::CEILING * T::CEILING)
+            && is_factor(self.next)
     }
 }
 

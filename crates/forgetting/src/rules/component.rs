@@ -64,6 +64,7 @@ const SCHEDULE: Parameter = cycle::schedule(
 /// The registry entry.
 pub const ABOUT: About = About {
     forgetting_factor: true,
+    squares: 1,
     cost: "O(n^3); cyclic O((p + largest block) n^2)",
     guarantees: Some(Guarantees {
         proper: Guarantee::ALWAYS,

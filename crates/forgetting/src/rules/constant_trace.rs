@@ -16,7 +16,8 @@
 //! - Proper (A1): no. It can shrink P: where a direction has less variance than before, the
 //!   rule claims information that no sample brought.
 //! - P̄ bounded above without excitation (A2): always: floor·I ≤ P̄ ≤ (n·level − (n − 1)·floor) I.
-//! - P bounded below (A3): if φ is bounded.
+//! - P bounded below (A3): if φ is bounded: by min(1/(β + 1/floor), 1/(β + 1/λ_min(P₀))) for
+//!   φ̄ᵀφ̄ ≤ β I.
 //! - Cost: O(n³), for adding c₂ I to the factor. State: P alone.
 //! - Use it where tracking must never slow down and noise is small. The gain stays high however
 //!   long the parameters rest.
@@ -120,7 +121,8 @@ impl<M: Memory> Forgetting<M> for ConstantTrace<M> {
         let (level, floor) = (self.level.to_f64(), self.floor.to_f64());
         let n = constants.parameters as f64;
         Bounds {
-            below: constants.least_after(floor),
+            // the first sample is measured with P₀ itself
+            below: constants.least_after(floor.min(constants.initial.0)),
             above: positive(n * level - (n - 1.0) * floor),
         }
     }

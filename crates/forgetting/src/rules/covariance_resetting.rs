@@ -36,8 +36,9 @@
 //!
 //! - Proper (A1): if P ≤ P_∞ at every reset and the rule is proper.
 //! - P̄ bounded above without excitation (A2): if the rule's is.
-//! - P bounded below (A3): if φ is bounded and the criterion is period or smallest_eigenvalue, or
-//!   the rule's P is.
+//! - P bounded below (A3): if φ is bounded and the rule's P is; or the rule is proper and the
+//!   criterion is period, by 1/(N β + 1/p), or smallest_eigenvalue, by 1/(β + 1/min(h, p)), for
+//!   φ̄ᵀφ̄ ≤ β I and P₀, P_∞ ≥ p I.
 //! - Cost: that of the rule; and O(n²/2) for trace, O(p n²/2) for change, O(n³/3) for
 //!   smallest_eigenvalue. State: the rule's, k, g and v.
 //! - Use it for parameters that jump: `change` with any rule for the time between the jumps.
@@ -47,9 +48,11 @@
 //! inspection schemes*, Biometrika 41, 1954 (CUSUM).
 
 use super::criterion::{Criterion, Watch, CRITERION, DRIFT, MEMORY, PERIOD, THRESHOLD};
-use super::{Forgetting, Forgotten, InnerRule, Step};
+use super::{Forgetting, Forgotten, InnerRule, Step, RULES};
+use crate::choice::guarantee::positive;
 use crate::choice::{
-    About, Defaults, Guarantee, Guarantees, Input, Kind, Parameter, Range, Setting, Value, Values,
+    About, Bounds, Claim, Constants, Defaults, Guarantee, Guarantees, Input, Kind, Parameter, Range,
+    Setting, Value, Values,
 };
 use crate::rules::root::Root;
 use crate::memory::state::{State, Visitor};
@@ -70,6 +73,7 @@ const COVARIANCE: Parameter = Parameter::elements(
 
 /// The registry entry.
 pub const ABOUT: About = About {
+    squares: 5,
     cost: "that of the rule; O(n^3) more for smallest_eigenvalue",
     guarantees: Some(Guarantees {
         proper: Guarantee::when(
@@ -131,13 +135,42 @@ impl<M: Memory, F: Forgetting<M>> CovarianceResetting<M, F> {
     pub fn new(rule: F, criterion: Criterion<M::Real>, covariance: Root<M>) -> Result<Self, Error> {
         let memory = covariance.memory();
         let n = memory.parameters();
-        let mut dense = memory.square();
-        for (k, x) in dense.as_mut().iter_mut().enumerate() {
-            *x = covariance.element(k / n, k % n);
-        }
         let mut factor = Factor::scalar(memory, M::Real::ONE)?;
-        factor.replace(dense.as_mut(), COVARIANCE.name)?;
+        if covariance.is_diagonal() {
+            let mut variances = memory.vector();
+            for (i, x) in variances.as_mut().iter_mut().enumerate() {
+                *x = covariance.element(i, i);
+            }
+            factor.replace_diagonal(variances.as_ref(), COVARIANCE.name)?;
+        } else {
+            let mut dense = memory.square();
+            for (k, x) in dense.as_mut().iter_mut().enumerate() {
+                *x = covariance.element(k / n, k % n);
+            }
+            factor.replace(dense.as_mut(), COVARIANCE.name)?;
+        }
         Ok(Self { rule, criterion, root: covariance, covariance: factor })
+    }
+}
+
+impl<M: Memory, F: Forgetting<M>> CovarianceResetting<M, F> {
+    /// Where the rule only takes information: what data add until the next reset. `smallest` is the
+    /// least that P starts from, at first or after a reset, and `least` that after a reset.
+    fn bound_below(&self, constants: &Constants, (smallest, least): (f64, f64)) -> Option<f64> {
+        let about = RULES.iter().find(|about| about.name == self.rule.name())?;
+        if about.guarantees?.proper.claim != Claim::Always {
+            return None;
+        }
+        match self.criterion {
+            Criterion::Period(samples) => {
+                let added = constants.regressor_bound * samples as f64;
+                positive(1.0 / (added + 1.0 / smallest))
+            }
+            Criterion::SmallestEigenvalue(threshold) => {
+                constants.least_after(threshold.to_f64().min(least))
+            }
+            Criterion::Trace(_) | Criterion::Change { .. } => None,
+        }
     }
 }
 
@@ -168,6 +201,17 @@ impl<M: Memory, F: Forgetting<M>> Forgetting<M> for CovarianceResetting<M, F> {
 
     fn is_bounded(&self) -> bool {
         self.rule.is_bounded()
+    }
+
+    fn bounds(&self, constants: &Constants) -> Bounds {
+        // what holds of the rule from any P between P₀ and P_∞ on holds here
+        let (least, most) = self.root.extremes();
+        let (least, most) = (least.to_f64(), most.to_f64());
+        let initial = (constants.initial.0.min(least), constants.initial.1.max(most));
+        let inner = self.rule.bounds(&Constants { initial, ..*constants });
+        let Bounds { below, above } = inner.with_initial(initial);
+        let below = below.or_else(|| self.bound_below(constants, (initial.0, least)));
+        Bounds { below, above }
     }
 
     fn follow(&self, state: &mut Self::State, step: Step<'_, '_, M>) {

@@ -146,7 +146,8 @@ impl<M: Memory> State<M::Real> for Watch<M> {
 
     fn is_sound(&self) -> bool {
         let Progress { excess, usual, .. } = self.progress;
-        is_finite(self) && excess >= M::Real::ZERO && usual >= M::Real::ZERO
+        let most = M::Real::CEILING + M::Real::CEILING * M::Real::EPSILON.sqrt();
+        is_finite(self) && excess >= M::Real::ZERO && usual >= M::Real::ZERO && usual <= most
     }
 }
 
@@ -180,6 +181,8 @@ impl<M: Memory> Watch<M> {
             Criterion::SmallestEigenvalue(threshold) => self.is_below(factor, threshold),
             Criterion::Change { threshold, drift, memory } => {
                 let u = self.normalised_square(factor, sample, work);
+                // written so that what is not a number is capped, too
+                let u = if u < M::Real::CEILING { u } else { M::Real::CEILING };
                 let known = self.progress.samples >= memory;
                 progress.accumulate(u, known.then_some((threshold, drift)), memory)
             }

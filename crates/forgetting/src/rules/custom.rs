@@ -46,6 +46,7 @@ const FORGETTING_MATRIX: Parameter = Parameter::elements(
 
 /// The registry entry.
 pub const ABOUT: About = About {
+    squares: 2,
     cost: "O(n^3) and the function",
     guarantees: Some(Guarantees {
         proper: Guarantee::of_function("forgetting_matrix >= 0"),

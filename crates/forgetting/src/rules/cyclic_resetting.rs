@@ -16,8 +16,10 @@
 //!
 //! - Proper (A1): no. One cycle without data is R → λʳ R + (1 − λʳ) R_∞ exactly, but within it
 //!   information is added before it is due.
-//! - P̄ bounded above without excitation (A2): if R_∞ > 0.
-//! - P bounded below (A3): if λ_k ≤ λ_max < 1 and φ is bounded.
+//! - P̄ bounded above without excitation (A2): if R_∞ > 0: by 1/(λʳ⁻¹ μ), μ = λ_min(R_∞), for a
+//!   constant λ and P₀ ≤ λʳ⁻¹/μ I. Within a cycle P may exceed 1/μ.
+//! - P bounded below (A3): if λ_k ≤ λ_max < 1 and φ is bounded: P ≥ (1 − λ_max)/(β + v) I once it
+//!   is, for φ̄ᵀφ̄ ≤ β I and v_k v_kᵀ ≤ v I.
 //! - Cost: O((p + 1) n²). State: P and the place in the cycle.
 //! - Use it in the place of `exponential_resetting` when n is large. With λ_k that varies within
 //!   a cycle the inserted weights are those of each sample's λ_k, and the cycle is approximate.
@@ -26,8 +28,10 @@
 //! least squares*, IEEE Control Systems Letters 7, 2023.
 
 use super::{Forgetting, Forgotten, Step};
+use crate::choice::guarantee::positive;
 use crate::choice::{
-    About, Guarantee, Guarantees, Input, Kind, Parameter, Range, Setting, Value, Values,
+    About, Bounds, Constants, Guarantee, Guarantees, Input, Kind, Parameter, Range, Setting, Value,
+    Values,
 };
 use crate::rules::cycle::Cycle;
 use crate::rules::root::Root;
@@ -48,6 +52,7 @@ const INFORMATION: Parameter = Parameter::elements(
 /// The registry entry.
 pub const ABOUT: About = About {
     forgetting_factor: true,
+    squares: 3,
     cost: "O((p + 1) n^2)",
     guarantees: Some(Guarantees {
         proper: Guarantee::no(Setting { variance: 100.0, ..Setting::usual(Input::Silent) }),
@@ -76,6 +81,31 @@ impl<M: Memory> CyclicResetting<M> {
     }
 }
 
+impl<M: Memory> CyclicResetting<M> {
+    /// A whole cycle leads R to m or above, m the least of R_∞ where λ is constant. Within one, R
+    /// may fall by λʳ⁻¹ before anything is inserted, and it may begin within one.
+    fn bound_above(&self, constants: &Constants) -> Option<f64> {
+        let (rank, (least, _)) = (self.information.rank() as i32, self.information.extremes());
+        let (smallest, largest) = constants.forgetting_factors;
+        if smallest >= 1.0 {
+            return positive(constants.initial.1);
+        }
+        let kept = power(smallest, rank - 1);
+        // else the weights inserted are cut to the range of the number type
+        if rank < self.information.parameters() as i32 || kept < M::Real::FLOOR.to_f64() {
+            return None;
+        }
+        let uneven = power(smallest / largest, rank - 1);
+        let whole = uneven * (1.0 - power(largest, rank)) / (1.0 - power(smallest, rank));
+        let least = (whole * least.to_f64()).min(kept / constants.initial.1);
+        positive(1.0 / (kept * least))
+    }
+}
+
+fn power(lambda: f64, exponent: i32) -> f64 {
+    libm::pow(lambda, f64::from(exponent))
+}
+
 impl<M: Memory> Forgetting<M> for CyclicResetting<M> {
     type State = Cycle;
 
@@ -93,6 +123,14 @@ impl<M: Memory> Forgetting<M> for CyclicResetting<M> {
 
     fn is_bounded(&self) -> bool {
         self.information.rank() == self.information.parameters()
+    }
+
+    fn bounds(&self, constants: &Constants) -> Bounds {
+        let (rank, (_, most)) = (self.information.rank() as i32, self.information.extremes());
+        let (smallest, largest) = constants.forgetting_factors;
+        let inserted = most.to_f64() * (1.0 - power(smallest, rank)) / power(smallest, rank - 1);
+        let below = (1.0 - largest) / (constants.regressor_bound + inserted);
+        Bounds { below: positive(below), above: self.bound_above(constants) }
     }
 
     #[inline]

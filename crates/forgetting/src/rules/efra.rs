@@ -65,6 +65,7 @@ const SATURATION: Parameter = Parameter::real(
 pub const ABOUT: About = About {
     forgetting_factor: true,
     largest_rows: Some(1),
+    squares: 3,
     cost: "O(n^3)",
     guarantees: Some(Guarantees {
         proper: Guarantee::ALWAYS,

@@ -42,6 +42,7 @@ const INFORMATION: Parameter = Parameter::elements(
 /// The registry entry.
 pub const ABOUT: About = About {
     forgetting_factor: true,
+    squares: 3,
     cost: "O((p + r) n^2), r = rank of information",
     guarantees: Some(Guarantees {
         proper: Guarantee::when(

@@ -70,6 +70,7 @@ const SHIFT: Parameter = Parameter::real(
 /// The registry entry.
 pub const ABOUT: About = About {
     forgetting_factor: true,
+    squares: 5,
     cost: "O(n^3)",
     guarantees: Some(Guarantees {
         proper: Guarantee::when(

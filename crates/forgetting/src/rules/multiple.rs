@@ -16,7 +16,8 @@
 //!   blkdiag(λ_b I); for two parameters: (1 − λ₁)(1 − λ₂) ≥ R₁₂²/(R₁₁R₂₂). That fails as soon as
 //!   regressors are correlated and factors near 1. `component` is always proper.
 //! - P̄ bounded above without excitation (A2): no: a block without excitation winds up.
-//! - P bounded below (A3): if λ_b ≤ λ_max < 1 and φ is bounded.
+//! - P bounded below (A3): if λ_b ≤ λ_max < 1 and φ is bounded: P ≥ (1 − λ_max)/β I for φ̄ᵀφ̄ ≤ β I,
+//!   once it is.
 //! - Cost: O(p n²), of which the rule itself takes O(n²), or O(p Σ n_b²) and writing U anew.
 //!   State: P and a factor of each block.
 //! - Use it to reproduce work that used it. It treats the blocks as if they were uncorrelated,
@@ -29,7 +30,8 @@
 
 use super::{Forgetting, Forgotten, Step};
 use crate::choice::{
-    About, Guarantee, Guarantees, Input, Kind, Parameter, Range, Setting, Value, Values,
+    About, Bounds, Constants, Guarantee, Guarantees, Input, Kind, Parameter, Range, Setting, Value,
+    Values,
 };
 use crate::memory::state::{State, Visitor, is_finite};
 use crate::covariance::{trace, Factor};
@@ -57,6 +59,7 @@ const BLOCKS: Parameter = Parameter::elements(
 
 /// The registry entry.
 pub const ABOUT: About = About {
+    squares: 2,
     cost: "O(p n^2)",
     guarantees: Some(Guarantees {
         proper: Guarantee::when(
@@ -269,6 +272,12 @@ impl<M: Memory> Forgetting<M> for Multiple<M> {
     fn start(&self, memory: M) -> BlockFactors<M> {
         let (columns, diagonal) = (memory.packed(), memory.vector());
         BlockFactors { columns, diagonal, started: 0, work: memory.square() }
+    }
+
+    fn bounds(&self, constants: &Constants) -> Bounds {
+        // R_bb ≤ β/(1 − λ_b), and R is at most blkdiag(λ_b R_bb) + β I after a sample
+        let most = self.blocks().fold(0.0, |most, (_, _, lambda)| lambda.to_f64().max(most));
+        Bounds { below: constants.least_remembered(most), above: None }
     }
 
     fn follow(&self, state: &mut BlockFactors<M>, step: Step<'_, '_, M>) {

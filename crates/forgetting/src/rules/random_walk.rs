@@ -81,6 +81,7 @@ const SCHEDULE: Parameter = cycle::schedule(
 
 /// The registry entry.
 pub const ABOUT: About = About {
+    squares: 3,
     cost: "O((p + r) n^2), r = rank of process_noise; cyclic O((p + 1) n^2)",
     guarantees: Some(Guarantees {
         proper: Guarantee::when(

@@ -54,6 +54,7 @@ const COVARIANCE: Parameter = Parameter::elements(
 /// The registry entry.
 pub const ABOUT: About = About {
     forgetting_factor: true,
+    squares: 3,
     cost: "O(n^3)",
     guarantees: Some(Guarantees {
         proper: Guarantee::when(

@@ -54,6 +54,7 @@ const THRESHOLD: Parameter = Parameter::real(
 /// The registry entry.
 pub const ABOUT: About = About {
     forgetting_factor: true,
+    squares: 3,
     cost: "O(p n^3)",
     guarantees: Some(Guarantees {
         proper: Guarantee::ALWAYS,

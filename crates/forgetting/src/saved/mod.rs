@@ -45,12 +45,20 @@ impl<T: Kernels> AnyEstimator<T> {
     /// The estimator, configuration and state, as bytes.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] when a part of it is a function of the user's.
+    /// [`Error::Unsupported`] when a part of it is a function of the user's, [`Error::State`] for so
+    /// many rows that the bytes could not tell of the memory they take (about 2000), and
+    /// [`Error::Memory`].
     pub fn to_bytes(&self) -> Result<Vec<u8>, Error> {
         let mut bytes = write::header(self)?;
+        let (mut prior, mut all) = (self.prior().clone(), self.clone());
+        let mut length = write::Length(0);
+        prior.visit(&mut length);
+        all.visit(&mut length);
+        read::check_rows(self.prior().memory(), length.0)?;
+        bytes.try_reserve(length.0 + 4).map_err(|_| Error::Memory)?;
         let mut numbers = write::Numbers(&mut bytes);
-        self.prior().clone().visit(&mut numbers);
-        self.clone().visit(&mut numbers);
+        prior.visit(&mut numbers);
+        all.visit(&mut numbers);
         let check = crc32(&bytes);
         bytes.extend_from_slice(&check.to_le_bytes());
         Ok(bytes)
@@ -79,6 +87,11 @@ impl<T: Kernels> AnyEstimator<T> {
             Err(Error::State { reason: "its numbers are not those of an estimator" })
         }
     }
+}
+
+/// The bytes that the state of an estimator of the sizes of this one takes at least.
+pub fn least_length<T: Kernels>(estimator: &AnyEstimator<T>) -> usize {
+    read::least_length(estimator.prior().memory(), u8::MAX)
 }
 
 /// The bytes of a number in a saved state: 4 or 8.

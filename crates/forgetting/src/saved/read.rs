@@ -2,6 +2,7 @@
 
 use super::{AnyEstimator, AnyGate, AnyRate, AnyWeighting, Dynamic, Error, Estimator, Memory};
 use super::{Box, Open, Prior, Real, Rule, String, Value, Values, Vec, Visitor};
+use crate::rules::RULES;
 use forgetting_kernels::Kernels;
 
 /// A place in the bytes, and whether they have run out.
@@ -117,6 +118,50 @@ impl Values for Parameters {
     }
 }
 
+/// The bytes that a state of these sizes takes at least: θ₀, P₀ in this form, U, D, the bound of
+/// P's trace and θ.
+pub(super) fn least_length<T: Kernels>(memory: Dynamic<T>, form: u8) -> usize {
+    let (n, m) = (memory.parameters(), memory.targets());
+    let factor = n * (n + 1) / 2 + 1;
+    let prior = match form {
+        0 => 1,
+        1 => n,
+        2 => factor,
+        _ => 0,
+    };
+    (2 * m * n + prior + factor) * T::BYTES
+}
+
+/// Refuses more rows than a state of so many bytes can be of: rows take memory, but no place in it.
+///
+/// # Errors
+/// [`Error::State`].
+pub(super) fn check_rows<T: Kernels>(memory: Dynamic<T>, length: usize) -> Result<(), Error> {
+    /// Numbers in the buffers for a sample that any state may have.
+    const MOST: usize = 1 << 22;
+    let (n, p, m) = (memory.parameters(), memory.rows(), memory.targets());
+    if p * (p + n + m) <= MOST.max(length) {
+        return Ok(());
+    }
+    Err(Error::State { reason: "it has too many rows to be saved: at most about 2000" })
+}
+
+/// Refuses an estimator for which there is no memory.
+fn check_memory<T: Kernels>(
+    memory: Dynamic<T>,
+    (rule, parameters): (&str, &Parameters),
+    form: u8,
+) -> Result<(), Error> {
+    let inner = parameters.0.iter().filter_map(|(_, value)| match value {
+        SavedValue::Word(name) | SavedValue::Choice { name, .. } => Some(name.as_str()),
+        _ => None,
+    });
+    let squares = inner.chain([rule]).filter_map(|name| RULES.iter().find(|a| a.name == name));
+    // P₀ as a matrix is one more
+    let prior = usize::from(form == 2);
+    memory.check_room(squares.map(|about| about.squares).sum::<usize>() + prior, 1)
+}
+
 /// The estimator described before the numbers, with the prior's numbers but its first state; and
 /// whether the monitor of version 1, which held fewer numbers than today's, follows.
 pub fn header<T: Kernels>(
@@ -129,7 +174,13 @@ pub fn header<T: Kernels>(
     let memory = Dynamic::new(reader.size()?, reader.size()?, reader.size()?)?;
     let form = reader.byte()?;
     let monitored = reader.byte()? == 1;
+    // before anything is made of these sizes
+    if reader.bytes.len() < least_length(memory, form) {
+        return Err(Error::State { reason: "it is truncated" });
+    }
+    check_rows(memory, reader.bytes.len())?;
     let (name, parameters) = reader.choice(0)?;
+    check_memory(memory, (&name, &parameters), form)?;
     let rule = Rule::named(&name, &parameters, memory)?;
     let (name, parameters) = reader.choice(0)?;
     let rate = AnyRate::named(&name, &parameters, memory)?;
@@ -141,10 +192,6 @@ pub fn header<T: Kernels>(
         let (name, parameters) = reader.choice(0)?;
         AnyGate::named(&name, &parameters, memory)?
     };
-    let numbers = memory.parameters() * (memory.targets() + 1) * T::BYTES;
-    if reader.bytes.len() < numbers {
-        return Err(Error::State { reason: "it is truncated" });
-    }
     let mut prior = Prior::of_form(memory, form)?;
     prior.visit(reader);
     if !prior.is_sound() {

@@ -32,6 +32,19 @@ pub fn header<T: Kernels>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error>
     Ok(bytes)
 }
 
+/// Counts the bytes of the numbers of a state.
+pub struct Length(pub usize);
+
+impl<T: Real> Visitor<T> for Length {
+    fn reals(&mut self, values: &mut [T]) {
+        self.0 += values.len() * T::BYTES;
+    }
+
+    fn whole(&mut self, _: &mut u64) {
+        self.0 += 8;
+    }
+}
+
 /// Appends the numbers of a state. `f32` numbers go through `f64` exactly.
 pub struct Numbers<'a>(pub &'a mut Vec<u8>);
 

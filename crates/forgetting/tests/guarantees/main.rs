@@ -9,6 +9,7 @@ mod record;
 #[path = "../conformance/subjects.rs"]
 mod subjects;
 
+mod attack;
 mod bounds;
 mod change;
 mod claims;

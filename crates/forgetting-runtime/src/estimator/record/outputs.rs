@@ -28,25 +28,25 @@ impl<T: Number> Outputs<T> {
     /// Room for the outputs of these names.
     ///
     /// # Errors
-    /// [`Error::Output`] for an unknown name.
+    /// [`Error::Output`] for an unknown name, [`Error::Core`] when there is not enough memory.
     pub fn named(names: &[&str], sizes: Sizes) -> Result<Self, Error> {
         if let Some(name) = names.iter().find(|name| !Run::OUTPUTS.contains(name)) {
             return Err(Error::Output { name: (*name).into(), allowed: Run::OUTPUTS.join(", ") });
         }
         let Sizes { samples, parameters: n, rows: p, targets: m } = sizes;
         Ok(Self {
-            theta: room(names, "theta", samples * n * m),
-            error: room(names, "error", samples * p * m),
-            leverage: room(names, "leverage", samples),
-            forgetting_factor: room(names, "forgetting_factor", samples),
-            rank: room(names, "rank", samples),
-            skipped: room(names, "skipped", samples),
-            gate: room(names, "gate", samples),
-            windup: room(names, "windup", samples),
-            whitened_innovation: room(names, "whitened_innovation", samples * p * m),
-            variance: room(names, "variance", samples * n),
-            covariance: room(names, "covariance", samples * n * n),
-            prior_covariance: room(names, "prior_covariance", samples * n * n),
+            theta: room(names, "theta", &[samples, n, m])?,
+            error: room(names, "error", &[samples, p, m])?,
+            leverage: room(names, "leverage", &[samples])?,
+            forgetting_factor: room(names, "forgetting_factor", &[samples])?,
+            rank: room(names, "rank", &[samples])?,
+            skipped: room(names, "skipped", &[samples])?,
+            gate: room(names, "gate", &[samples])?,
+            windup: room(names, "windup", &[samples])?,
+            whitened_innovation: room(names, "whitened_innovation", &[samples, p, m])?,
+            variance: room(names, "variance", &[samples, n])?,
+            covariance: room(names, "covariance", &[samples, n, n])?,
+            prior_covariance: room(names, "prior_covariance", &[samples, n, n])?,
             used: 0,
         })
     }
@@ -190,9 +190,16 @@ impl<T: Number> Outputs<T> {
     }
 }
 
-/// Room for `length` elements of the output `name`, if it is among `names`.
-fn room<X>(names: &[&str], name: &str, length: usize) -> Option<Vec<X>> {
-    names.contains(&name).then(|| Vec::with_capacity(length))
+/// Room for the elements of the output `name`, of this shape, if it is among `names`.
+fn room<X>(names: &[&str], name: &str, shape: &[usize]) -> Result<Option<Vec<X>>, Error> {
+    if !names.contains(&name) {
+        return Ok(None);
+    }
+    let length = shape.iter().try_fold(1usize, |length, &size| length.checked_mul(size));
+    let mut elements = Vec::new();
+    let reserved = length.map(|length| elements.try_reserve_exact(length));
+    reserved.and_then(Result::ok).ok_or(forgetting::Error::Memory)?;
+    Ok(Some(elements))
 }
 
 /// Appends the n x n numbers of P.
