@@ -131,11 +131,6 @@ impl<M: Memory> Root<M> {
         &self.rows.as_ref()[i * n..(i + 1) * n]
     }
 
-    /// Whether it was given by its diagonal alone.
-    pub fn is_diagonal(&self) -> bool {
-        self.form != Form::Dense
-    }
-
     /// The rank of the matrix.
     pub fn rank(&self) -> usize {
         self.rank
