@@ -7,7 +7,7 @@ from typing import Any, ClassVar, Literal
 from numpy.typing import ArrayLike
 
 from ._core import Evidence
-from .choices import Choice, ForgettingFactor, Gate, Rate, Rule, Weighting
+from .choices import ForgettingFactor, Gate, Mixer, Rate, Rule, Weighting
 
 __all__ = [
     "Best",
@@ -79,9 +79,6 @@ def weightings() -> list[dict[str, Any]]: ...
 def gate(name: str, **parameters: Any) -> Gate: ...
 def gates() -> list[dict[str, Any]]: ...
 
-class Mixer(Choice):
-    """Which members of a bank to believe: their weights, from how well each has predicted."""
-
 def mixer(name: str, **parameters: Any) -> Mixer: ...
 def mixers() -> list[dict[str, Any]]: ...
 
@@ -118,21 +115,25 @@ class Component(Rule):
     P̄ = P + blkdiag((1/λ_b − 1) P_bb)        West & Harrison, discounting by component
     F_k = R − P̄⁻¹                            the same as Theorem 1 of GF-RLS has it; the form
                                              used: P_bb = V diag(d) Vᵀ, one dyad for each v
+    P̄ = P + (1/λ_bᶜ − 1) P_bb, b = k mod c   cyclic: one of the c blocks a sample, for c samples
     ```
 
     | symbol | name | range | default |
     |---|---|---|---|
     | n_b | blocks | sizes of consecutive blocks, whole numbers from 1 that sum to n, or one size for all | 1 |
     | λ_b | factors | (0, 1], one number a block or one for all | the forgetting factor λ_k |
+    | | schedule | "every_sample" forgets all blocks at each sample, "cyclic" one block | "every_sample" |
 
     - Proper (A1): always.
     - P̄ bounded above without excitation (A2): no. In silence the variances of block b grow as
       λ_b⁻ᵏ (windup).
     - P bounded below (A3): if λ_b ≤ λ_max < 1 and φ is bounded.
     - Cost: O(n³), one dyad for each parameter; O(p n²) with one block of all parameters, which is
-      `exponential`. State: P alone.
+      `exponential`; cyclic O((p + n_b) n²) for blocks of n_b. State: P, and whose turn it is.
     - Use it when parameters are known to drift at different rates. `multiple` drops what the
-      blocks know of each other and is rarely proper; this rule keeps it.
+      blocks know of each other and is rarely proper; this rule keeps it. Use the cyclic schedule
+      where n is large and λ_bᶜ is not small: in silence P is that of the other after each cycle,
+      exactly, and the same is guaranteed. k counts the samples used.
 
     Reference: M. West, J. Harrison, *Bayesian Forecasting and Dynamic Models*, 2nd edition,
     Springer, 1997, section 6.3.
@@ -145,6 +146,7 @@ class Component(Rule):
         forgetting_factor: ForgettingFactor = 0.99,
         blocks: ArrayLike = 1.0,
         factors: ArrayLike | None = None,
+        schedule: Literal["every_sample", "cyclic"] = "every_sample",
     ) -> None: ...
 
 class Constant(Rate):
@@ -526,7 +528,8 @@ class Efra(Rule):
     - P̄ bounded above without excitation (A2): if λ_k ≥ λ_min > 0, by the larger of P₀ and
       b + (1 + g)²/(4d); by σ_max where the published map applies. Silence takes P to σ_max I.
     - P bounded below (A3): if λ_k ≤ λ_max < 1 and φ is bounded.
-    - Cost: O(n³). State: P, n eigenvectors and n numbers.
+    - Cost: O(n³). State: P, n eigenvectors and 2 n numbers. The eigenvectors follow P from sample to
+      sample; after one that a gate freezes they are computed anew.
     - Use it for one output, where P must stay below a bound that is stated beforehand, with
       P₀ at or below it.
 
@@ -1215,7 +1218,11 @@ class RandomWalk(Rule):
 
     ```text
     P̄ = P + Q                                prediction of the Kalman filter with transition I
-    P̄ = (1 − λ_max(Q)/b) P + Q               where a bound b is given
+    P̄ = κ P + Q,  κ = 1 − λ_max(Q)/b         where a bound b is given
+    P̄ = P + r w_jᵀ w_j,  j = k mod r         cyclic: Q = Σ_j w_jᵀ w_j, one of its r dyads a sample,
+                                             for r samples
+    P̄ = S_j P S_j + (1 − κʳ)/(1 − κ) w_jᵀ w_j    the same with a bound, for a diagonal Q:
+                                             S_j = I but for κ^(r/2) at parameter j
     F_k = R − P̄⁻¹                            the same as Theorem 1 of GF-RLS has it; the form used: one
                                              dyad for each row of a root of Q, and for Q = c·I with
                                              n ≤ 10 one pass of Gram and Schmidt over [U, I]
@@ -1225,20 +1232,30 @@ class RandomWalk(Rule):
     |---|---|---|---|
     | Q | process_noise | a number c ≥ 0 (c·I), n numbers ≥ 0 or an n x n positive semidefinite matrix | 1e-4 |
     | b | bound | (0, ∞), above process_noise, or not given | not given |
+    | | schedule | "every_sample" adds Q at each sample, "cyclic" one dyad of it | "every_sample" |
 
-    - Proper (A1): without a bound; with one, while P ≤ Q b/λ_max(Q), which for Q = c·I is P ≤ b·I.
-    - P̄ bounded above without excitation (A2): with a bound b, since P ≤ b·I makes P̄ ≤ b·I. Without one
+    - Proper (A1): if there is no bound; with one, while P ≤ Q b/λ_max(Q), which for Q = c·I is P ≤ b·I,
+      but for the cyclic schedule, which draws each variance towards its bound in its turn.
+    - P̄ bounded above without excitation (A2): if a bound b is given: P ≤ b·I makes P̄ ≤ b·I. Without one
       P grows by Q at each sample that brings no information, linearly.
     - P bounded below (A3): if Q > 0 and φ is bounded.
     - Cost: O((p + r) n²), r the rank of Q; O(n³) for a full one, at n ≤ 10 with Q = c·I about twice that
-      of `exponential`. State: P alone.
+      of `exponential`; cyclic O((p + 1) n²). State: P, and whose turn it is.
     - Q is per sample and in units of P: the variance by which θ moves, over the variance of the
       measurement noise (Γ).
     - Use it when that ratio is known: the estimate is then the optimal one. With P₀ that follows the
-      data, Q counts in units of the root mean square of each regressor.
+      data, Q counts in units of the root mean square of each regressor. Use the cyclic schedule where n
+      is large and θ moves little in n samples: without data a whole cycle adds what r samples add, and
+      within one P is off by less than that.
+
+    A diagonal Q is taken in the order of its elements, a full one in the order of the pivots of
+    Cholesky's factorization with diagonal pivots. k counts the samples used.
 
     Reference: R. E. Kalman, *A new approach to linear filtering and prediction problems*, Journal
-    of Basic Engineering 82, 1960; as forgetting, GF-RLS, Theorem 1.
+    of Basic Engineering 82, 1960; as forgetting, GF-RLS, Theorem 1. The cyclic schedule is that filter
+    for steps that come in turns; one direction a sample is from B. Lai, D. S. Bernstein,
+    *Exponential resetting and cyclic resetting recursive least squares*, IEEE Control Systems
+    Letters 7, 2023.
     """
 
     about: ClassVar[Mapping[str, Any]]
@@ -1247,6 +1264,7 @@ class RandomWalk(Rule):
         self,
         process_noise: ArrayLike = 0.0001,
         bound: float | None = None,
+        schedule: Literal["every_sample", "cyclic"] = "every_sample",
     ) -> None: ...
 
 class Restricted(Rule):
