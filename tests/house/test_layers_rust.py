@@ -23,25 +23,27 @@ LAYERS: dict[str, tuple[str, ...]] = {
     "forgetting": (
         "error",  # what can be refused
         "memory",  # where numbers are kept, and how they are saved
+        "units",  # what regressors are measured in
         "covariance",  # P = U D Uᵀ
         "sample",  # what is learned from a sample, and what it brought
         "choice",  # parameters, registries
-        "rules rates weightings gates",  # the four choices; none needs another
+        "rules rates weightings gates mixers",  # the choices; none needs another
         "monitor",  # windup, excitation, noise
         "estimator",  # one recursion
-        "fleet",  # many of them
+        "fleet bank",  # many of them: on samples of their own, or on the same
         "saved",  # all of it as bytes
     ),
     "forgetting-runtime": (
         "error",  # what is refused, and how it is said
         "number",  # numbers and arrays as they come and go; the number types
+        "shape",  # which shapes fit
         "update",  # one sample
         "function",  # functions of the user's
         "choice",  # choices by name
         "settings",  # what an estimator is made from; defaults
         "configure",  # from settings to an estimator
         "estimator bounds window",
-        "fleet",
+        "fleet bank",
     ),
     # what only Python needs
     "forgetting-py": (
@@ -49,9 +51,10 @@ LAYERS: dict[str, tuple[str, ...]] = {
         "arrays",
         "callable",
         "choice",
-        "settings registry run update window",
+        "settings registry run update shared",
+        "window",
         "rls",
-        "fleet",
+        "fleet bank",
     ),
 }
 """Lowest first. A room may import those below it, and itself; rooms of one line are level."""

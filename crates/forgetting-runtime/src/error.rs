@@ -1,6 +1,5 @@
 //! What is refused, and how it is said in every language.
 
-use crate::shape::tuple;
 use std::fmt;
 
 /// Why something was refused. Whatever was refused has changed nothing.
@@ -179,4 +178,12 @@ pub fn check_shape(parameter: &str, shape: &[usize], expected: &[usize]) -> Resu
         return Ok(());
     }
     Err(Error::shape(parameter, shape, tuple(expected)))
+}
+
+/// A shape as it is written: "(2, 3)".
+pub(crate) fn tuple(shape: &[usize]) -> String {
+    match shape {
+        [one] => format!("({one},)"),
+        more => format!("({})", more.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")),
+    }
 }

@@ -3,7 +3,7 @@
 //! An argument has a full shape, such as (rows, n) for φ; dimensions of 1 may be left out, but no
 //! other shape of as many numbers will do: a transposed matrix is not the matrix.
 
-use crate::error::Error;
+use crate::error::{tuple, Error};
 
 /// Refuses a shape other than `leading` followed by `full`, of which dimensions of 1 may be left out.
 ///
@@ -61,14 +61,6 @@ pub(crate) fn either<S: AsRef<[usize]>>(shapes: &[S]) -> String {
     match words.pop() {
         Some(last) if !words.is_empty() => format!("{} or {last}", words.join(", ")),
         last => last.unwrap_or_default(),
-    }
-}
-
-/// A shape as it is written: "(2, 3)".
-pub(crate) fn tuple(shape: &[usize]) -> String {
-    match shape {
-        [one] => format!("({one},)"),
-        more => format!("({})", more.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")),
     }
 }
 

@@ -65,5 +65,8 @@ def identified() -> tuple[dict[str, Result], float]:
         "exponential": fg.rule("exponential", forgetting_factor=MEMORY),
         "subspace": fg.rule("subspace", forgetting_factor=MEMORY),
     }
-    found = {name: identify(record, formula=FORMULA, rule=rule) for name, rule in rules.items()}
+    found = {
+        name: identify(record, formula=FORMULA, rule=rule, initial_covariance=100.0)
+        for name, rule in rules.items()
+    }
     return {name: Result(each, rider(each, altitude)) for name, each in found.items()}, altitude

@@ -66,7 +66,10 @@ def identified() -> dict[str, Identification]:
         "exponential": fg.rule("exponential", forgetting_factor=MEMORY),
         "subspace": fg.rule("subspace", forgetting_factor=MEMORY, threshold=NIGHT),
     }
-    return {name: identify(record, formula=FORMULA, rule=rule) for name, rule in rules.items()}
+    return {
+        name: identify(record, formula=FORMULA, rule=rule, initial_covariance=100.0)
+        for name, rule in rules.items()
+    }
 
 
 def solar_record() -> Record:
