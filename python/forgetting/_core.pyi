@@ -15,6 +15,8 @@ __all__ = [
     "GATE",
     "RLS",
     "SKIPPED",
+    "Bank",
+    "BankUpdate",
     "Evidence",
     "Fleet",
     "FleetUpdate",

@@ -111,10 +111,7 @@ def health_of(estimator: RLS, exact: bool = False) -> Health:
     saturated = largest > edge or smallest < 1 / edge
     if exact:
         unit, diagonal = (np.asarray(part, dtype=float) for part in estimator.factor())
-        root = unit * np.sqrt(diagonal)
-        if estimator.units is not None:
-            root = estimator.units[:, None] * root
-        values = np.linalg.svd(root, compute_uv=False) ** 2
+        values = np.linalg.svd(unit * np.sqrt(diagonal), compute_uv=False) ** 2
         largest, smallest = float(values[0]), float(values[-1])
     eigenvalues = (largest, smallest, largest / smallest)
     watched = estimator.watched()

@@ -33,7 +33,7 @@ MODEL = ("--formula", "V ~ I")
         ((*MODEL, "--set", "threshold=1", "--threshold", "2"), "threshold is given twice"),
         ((*MODEL, "--set", "threshold=wide"), "threshold"),
         ((*MODEL, "--initial-covariance", "-1"), "initial_covariance"),
-        ((*MODEL, "--initial-covariance", "much"), "--initial-covariance takes a number"),
+        ((*MODEL, "--initial-covariance", "much"), "--initial-covariance takes auto, a number"),
         ((*MODEL, "--initial-covariance", "1,2,3"), "initial_covariance"),
         ((*MODEL, "--dtype", "float16"), "--dtype is 'float16'"),
         ((*MODEL, "--report", "o.txt"), "--report writes .html, .htm, but got 'o.txt'"),

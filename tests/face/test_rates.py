@@ -190,7 +190,7 @@ def test_an_exception_comes_back_and_nothing_has_changed():
             raise KeyError("twelve")
         return 0.95
 
-    est = fg.RLS(3, rule=fg.Exponential(factor))
+    est = fg.RLS(3, rule=fg.Exponential(factor), initial_covariance=100.0)
     with pytest.raises(KeyError, match="twelve"):
         est.run(phi, y)
     assert est.samples == 0

@@ -24,7 +24,7 @@ def by_hand(y, u, na, nb, nk):
 
 @pytest.mark.parametrize("orders", [(1, 1, 0), (2, 3, 1), (0, 2, 2), (3, 1, 4)])
 def test_regressors_of_two_inputs_and_two_outputs(plant, orders):
-    found = identify(plant, output=["y1", "y2"], input=["u1", "u2"], arx=orders)
+    found = identify(plant, output=["y1", "y2"], input=["u1", "u2"], arx=orders, offset=False)
     y, u = plant[["y1", "y2"]].to_numpy(), plant[["u1", "u2"]].to_numpy()
     np.testing.assert_array_equal(found.samples.phi, by_hand(y, u, *orders))
 
@@ -32,7 +32,13 @@ def test_regressors_of_two_inputs_and_two_outputs(plant, orders):
 def test_estimates_follow_the_dense_recursion(plant):
     """P-form recursion (9)-(10) of the GF-RLS paper, dense, both outputs at once."""
     found = identify(
-        plant, output=["y1", "y2"], input=["u1", "u2"], arx=(1, 1, 1), rule=fg.Exponential(0.95)
+        plant,
+        output=["y1", "y2"],
+        input=["u1", "u2"],
+        arx=(1, 1, 1),
+        offset=False,
+        rule=fg.Exponential(0.95),
+        initial_covariance=100.0,
     )
     y, u = plant[["y1", "y2"]].to_numpy(), plant[["u1", "u2"]].to_numpy()
     phi = by_hand(y, u, 1, 1, 1)
@@ -47,12 +53,13 @@ def test_estimates_follow_the_dense_recursion(plant):
 
 def test_finds_the_plant(plant):
     found = identify(plant, output=["y1", "y2"], input=["u1", "u2"], arx=(1, 1, 1), rule="none")
-    truth = {"y1": [-0.7, -0.1, 1.0, 0.0], "y2": [0.2, -0.5, 0.5, -0.3]}
+    truth = {"y1": [-0.7, -0.1, 1.0, 0.0, 0.0], "y2": [0.2, -0.5, 0.5, -0.3, 0.0]}
     table = found.parameters
     for output, values in truth.items():
         rows = table[table["output"] == output]
-        assert rows["parameter"].tolist() == ["-y1(k-1)", "-y2(k-1)", "u1(k-1)", "u2(k-1)"]
-        # Four standard errors: one in 16 000 for each of eight values.
+        names = ["-y1(k-1)", "-y2(k-1)", "u1(k-1)", "u2(k-1)", "offset"]
+        assert rows["parameter"].tolist() == names
+        # Four standard errors: one in 16 000 for each of ten values.
         assert (np.abs(rows["value"] - values) < 4 * rows["standard_error"]).all()
     # The noise of the plant has standard deviation 0.01.
     np.testing.assert_allclose(np.sqrt(found.noise_variance[-1]), 0.01, rtol=0.15)

@@ -145,8 +145,9 @@ def test_formulas_that_are_wrong(formula, words):
 def test_float32_is_float32():
     frame = pd.DataFrame({"x": np.linspace(1, 2, 50)})
     frame["y"] = 3 * frame.x
-    found = identify(frame, formula="y ~ 0 + x", rule="subspace", dtype="float32")
-    estimator = fg.RLS(1, rule="subspace", dtype="float32")
+    settings = {"rule": "subspace", "dtype": "float32", "initial_covariance": 100.0}
+    found = identify(frame, formula="y ~ 0 + x", **settings)
+    estimator = fg.RLS(1, **settings)
     column = frame["x"].to_numpy(dtype=np.float32)[:, None]
     run = estimator.run(column, frame["y"].to_numpy(dtype=np.float32))
     assert np.array_equal(found.theta[:, :, 0].astype(np.float32), run.theta)

@@ -74,7 +74,7 @@ def test_the_page_has_its_parts(found, tmp_path):
         "Output and prediction: y2",
         "Parameters over time: y2",
         "When to trust it",
-        "Directions of 3 that the last",
+        "Directions of 4 that the last",
         "Alarms and samples left out",
         "eigenvalues of P",
         "forgetting factor",

@@ -142,6 +142,6 @@ def test_summary_is_json(line):
 
 
 def test_covariance_ratio(line):
-    found = identify(line, formula="y ~ x", rule="none")
+    found = identify(line, formula="y ~ x", rule="none", initial_covariance=100.0)
     values = np.linalg.eigvalsh(found.trace.covariance)
     assert found.covariance_ratio == pytest.approx(values[-1] / values[0])

@@ -40,7 +40,12 @@ def test_the_inner_rule_goes_on_from_the_covariance_of_the_reset(
         around = {"criterion": "period", "period": period, "covariance": covariance}
         case_around = {**around, "rule": (name, case)}
         data = record(kind, SAMPLES, p, 3, weighted=p > 1, seed=period)
-        est = fg.RLS(3, rule=product.rule("covariance_resetting", case_around, FACTOR), rows=p, initial_covariance=100.0)
+        est = fg.RLS(
+            3,
+            rule=product.rule("covariance_resetting", case_around, FACTOR),
+            rows=p,
+            initial_covariance=100.0,
+        )
         worst, condition = 0.0, 1.0
         with precision.working(float(np.finfo(float).eps)):
             dense = Estimator(

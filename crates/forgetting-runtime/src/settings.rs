@@ -105,6 +105,12 @@ impl Settings<'_> {
         }
     }
 
+    /// The same with a rule that takes a forgetting factor, if none was named.
+    pub(crate) fn with_factor(&self) -> Self {
+        let rule = self.rule.clone().or_else(|| Some(Choice::named(RULE)));
+        Self { rule, ..self.clone() }
+    }
+
     /// The rule, named or not.
     pub(crate) fn rule(&self) -> Choice {
         let walk = || {

@@ -32,6 +32,17 @@ pub(crate) fn covariance<T: Number>(estimator: &AnyEstimator<T>) -> Result<Array
     Ok(T::array(dense, &[n, n]))
 }
 
+/// The largest and the smallest element of D, in the units of the user.
+pub(super) fn extremes<T: Number>(estimator: &AnyEstimator<T>) -> (f64, f64) {
+    let units = estimator.reciprocal_units();
+    let elements = estimator.factor().diagonal_elements().iter().enumerate();
+    elements.fold((0.0, f64::INFINITY), |(largest, smallest), (i, &d)| {
+        let unit = units.map_or(1.0, |units| units[i].to_f64());
+        let d = d.to_f64() * unit * unit;
+        (d.max(largest), d.min(smallest))
+    })
+}
+
 /// s of these 1/s.
 pub(crate) fn units<T: Number>(reciprocals: &[T]) -> Array {
     T::array(reciprocals.iter().map(|&x| T::ONE / x).collect(), &[reciprocals.len()])

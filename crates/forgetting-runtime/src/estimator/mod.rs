@@ -15,9 +15,9 @@ use crate::number::{each, make, ByType, Family, Number};
 use crate::number::{Array, NumberType, View};
 use crate::settings::Settings;
 use crate::update::{update, Update};
-use accessors::{factor, predict, theta};
+use accessors::{extremes, factor, predict, theta};
 use forgetting::saved::number_type;
-use forgetting::{AnyEstimator, Memory, Real};
+use forgetting::{AnyEstimator, Memory};
 
 /// Estimators, with the number type left open.
 pub(crate) struct Estimators;
@@ -209,14 +209,10 @@ impl Estimator {
         each!(&self.typed, e => factor(e))
     }
 
-    /// The largest and the smallest element of D, in O(n); where P₀ follows the data, for regressors
-    /// in units that the data chose.
+    /// The largest and the smallest element of D, in O(n).
     #[must_use]
     pub fn extremes(&self) -> (f64, f64) {
-        each!(&self.typed, e => {
-            let factor = e.factor();
-            (factor.largest().to_f64(), factor.smallest().to_f64())
-        })
+        each!(&self.typed, e => extremes(e))
     }
 
     /// What the monitor has found, if there is one.

@@ -29,6 +29,8 @@ pub(super) fn streams<T: Number>(
     forgetting_factor: Option<View<'_>>,
 ) -> Result<Streams<T>, Error> {
     check_single(settings)?;
+    let with_factor = settings.with_factor();
+    let settings = if forgetting_factor.is_some() { &with_factor } else { settings };
     let n = settings.parameters;
     let (covariance, covariances) = split::<T>(
         "initial_covariance",

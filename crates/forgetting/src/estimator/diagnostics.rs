@@ -54,6 +54,13 @@ impl<M: Memory> Diagnostics<M> {
         self.prior.is_some()
     }
 
+    /// P̄ of the last sample in other units: S P̄ S with S = diag(`ratios`).
+    pub fn change_units(&mut self, ratios: &[M::Real]) {
+        if let Some(prior) = &mut self.prior {
+            prior.scale_each(ratios);
+        }
+    }
+
     /// P̄ of the last sample.
     pub fn prior(&self) -> Option<&Factor<M>> {
         self.prior.as_ref()

@@ -117,8 +117,9 @@ where
     /// # Errors
     /// [`Error::Range`] when P would leave the range of the number type; nothing has changed.
     pub fn change_units(&mut self, ratios: &[M::Real]) -> Result<(), Error> {
-        let Self { design, state, .. } = self;
+        let Self { design, state, buffers } = self;
         state.factor.change_units(ratios)?;
+        buffers.diagnostics.change_units(ratios);
         for theta in state.theta.as_mut().chunks_exact_mut(ratios.len()) {
             theta.iter_mut().zip(ratios).for_each(|(theta, &ratio)| *theta *= ratio);
         }
