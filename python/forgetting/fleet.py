@@ -97,4 +97,16 @@ def from_arrow(table: Any) -> Fleet:
     if not states or not all(isinstance(state, bytes) for state in states):
         raise InvalidInput("the column state must hold the state of one stream or more, as bytes")
     fresh = (table.schema.metadata or {}).get(FRESH, states[0])
-    return Fleet._of_states(fresh, states)
+    return Fleet._of_states(fresh, _in_order(table, states))
+
+
+def _in_order(table: Any, states: list[bytes]) -> list[bytes]:
+    """The states by the number of their stream, where the table has it: rows may come in any order."""
+    if "stream" not in table.column_names:
+        return states
+    streams = table.column("stream").to_pylist()
+    if set(streams) != set(range(len(states))) or len(streams) != len(states):
+        raise InvalidInput(
+            f"the column stream must hold each number from 0 to {len(states) - 1} once"
+        )
+    return [state for _, state in sorted(zip(streams, states, strict=True))]

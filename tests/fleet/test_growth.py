@@ -126,3 +126,18 @@ def test_a_table_of_states_of_single_estimators():
     singles = [fg.RLS(2, initial_theta=[i, 0.0]) for i in range(3)]
     table = pa.table({"state": [single.to_bytes() for single in singles]})
     assert_same(fg.Fleet.from_arrow(table), singles)
+
+
+def test_the_rows_of_a_table_may_come_in_any_order():
+    pytest.importorskip("pyarrow")
+    fleet = fg.Fleet(5, 2)
+    fleet.update(np.arange(10.0).reshape(5, 2), np.arange(5.0))
+    table = fleet.to_arrow()
+    mixed = fg.Fleet.from_arrow(table.take([3, 1, 4, 0, 2]))
+    assert mixed._states() == fleet._states()
+    without = fg.Fleet.from_arrow(table.take([3, 1, 4, 0, 2]).drop_columns("stream"))
+    assert (without.theta == fleet.theta[[3, 1, 4, 0, 2]]).all()
+    for rows in ([0, 1, 2], [0, 1, 2, 3, 3], [1, 2, 3, 4]):
+        if sorted(rows) != list(range(len(rows))):
+            with pytest.raises(fg.InvalidInput, match="column stream must hold each number"):
+                fg.Fleet.from_arrow(table.take(rows))

@@ -2,9 +2,10 @@
 
 use crate::arrays::{innovation, output, output_or_float, Input};
 use crate::choice::{read, read_forgetting_factor, write};
-use crate::errors::{invalid, raise};
+use crate::errors::{heed_signals, invalid, raise};
 use crate::run::Run;
 use crate::settings::{names, read_choices, read_optional, view, write_description, Whole};
+use crate::shared::Shared;
 use forgetting_runtime::{size, Bank as Inner, BankSettings, Choice, Member, Missing};
 use forgetting_runtime::{NumberType, Settings};
 use pyo3::prelude::*;
@@ -49,9 +50,12 @@ use pyo3::types::{PyBytes, PyDict, PyType};
 /// ...     u = bank.update([1.0, k % 7], 3.0 + 0.5 * (k % 7))
 /// >>> bank.theta.round(4)
 /// array([3. , 0.5])
-#[pyclass(module = "forgetting")]
+#[pyclass(frozen, module = "forgetting")]
 pub struct Bank {
-    bank: Inner,
+    bank: Shared<Inner>,
+    /// n, p and m
+    sizes: [usize; 3],
+    number_type: NumberType,
 }
 
 /// What one sample did: returned by `Bank.update`.
@@ -147,83 +151,83 @@ impl Bank {
         };
         let members = members.map(read_members).transpose()?;
         let settings = BankSettings { common, members, mixer: read("mixer", mixer)? };
-        Ok(Self { bank: Inner::new(&settings).map_err(raise)? })
+        Ok(Self::of(Inner::new(&settings).map_err(raise)?))
     }
 
     /// Number n of parameters of each target.
     #[getter]
     fn parameters(&self) -> usize {
-        self.bank.parameters()
+        self.sizes[0]
     }
 
     /// Measurements a sample that share one theta.
     #[getter]
     fn rows(&self) -> usize {
-        self.bank.rows()
+        self.sizes[1]
     }
 
     /// Parameter vectors that share phi and one covariance.
     #[getter]
     fn targets(&self) -> usize {
-        self.bank.targets()
+        self.sizes[2]
     }
 
     /// Name of the number type.
     #[getter]
     fn dtype(&self) -> &'static str {
-        self.bank.number_type().name()
+        self.number_type.name()
     }
 
     /// Samples used since the start; skipped ones do not count.
     #[getter]
-    fn samples(&self) -> u64 {
-        self.bank.samples()
+    fn samples(&self, py: Python<'_>) -> PyResult<u64> {
+        Ok(self.bank.lock(py)?.samples())
     }
 
     /// The estimate of the mixture, (n,) or (n, targets).
     #[getter]
     fn theta<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        output(py, self.bank.theta())
+        output(py, self.bank.lock(py)?.theta())
     }
 
     /// The covariance P of the mixture, (n, n), in units of 1/phi**2, with what the members disagree
     /// about: times the noise variance, it is that of the estimate.
     #[getter]
     fn covariance<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        output(py, self.bank.covariance())
+        output(py, self.bank.lock(py)?.covariance())
     }
 
     /// How far each member is believed, (members,): not negative, their sum is 1.
     #[getter]
     fn weights<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        output(py, self.bank.weights())
+        output(py, self.bank.lock(py)?.weights())
     }
 
     /// Over how many samples the bank remembers: the number n of parameters over the mean leverage of
     /// each member, mixed.
     #[getter]
-    fn memory(&self) -> f64 {
-        self.bank.memory()
+    fn memory(&self, py: Python<'_>) -> PyResult<f64> {
+        Ok(self.bank.lock(py)?.memory())
     }
 
     /// The noise variance, over up to the last thousand samples, in units of gamma.
     #[getter]
-    fn noise_variance(&self) -> f64 {
-        self.bank.noise_variance()
+    fn noise_variance(&self, py: Python<'_>) -> PyResult<f64> {
+        Ok(self.bank.lock(py)?.noise_variance())
     }
 
     /// The units (n,) in which regressors are measured, 1 for one that has always been 0; None where an
     /// initial covariance was given.
     #[getter]
     fn units<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
-        self.bank.units().map(|units| output(py, units)).transpose()
+        self.bank.lock(py)?.units().map(|units| output(py, units)).transpose()
     }
 
     /// The mixer and the members by name, each with its parameters.
     fn describe<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let written = PyDict::new(py);
-        written.set_item("mixer", write(py, &self.bank.mixer())?)?;
-        let members = self.bank.members();
+        written.set_item("mixer", write(py, &self.bank.lock(py)?.mixer())?)?;
+        let members = self.bank.lock(py)?.members();
         let members: PyResult<Vec<_>> =
             members.iter().map(|member| write_description(py, member)).collect();
         written.set_item("members", members?)?;
@@ -234,7 +238,7 @@ impl Bank {
     #[getter]
     fn members<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyAny>>> {
         let choices = py.import("forgetting.choices")?;
-        let members = self.bank.members();
+        let members = self.bank.lock(py)?.members();
         let rule = |member| {
             let described = write_description(py, member)?;
             choices.call_method1("rule_from_description", (described, self.dtype()))
@@ -257,7 +261,8 @@ impl Bank {
         phi: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let phi = self.input("phi", phi)?;
-        output_or_float(py, self.bank.predict(phi.view("phi")?).map_err(raise)?)
+        let bank = self.bank.lock(py)?;
+        output_or_float(py, bank.predict(phi.view("phi")?).map_err(raise)?)
     }
 
     /// Take one sample.
@@ -281,15 +286,17 @@ impl Bank {
     ///     When no member could take the sample. In either case nothing has changed.
     #[pyo3(signature = (phi, y, gamma=None))]
     fn update(
-        &mut self,
+        &self,
+        py: Python<'_>,
         phi: &Bound<'_, PyAny>,
         y: &Bound<'_, PyAny>,
         gamma: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<BankUpdate> {
         let (phi, y) = (self.input("phi", phi)?, self.input("y", y)?);
         let gamma = gamma.map(|gamma| self.input("gamma", gamma)).transpose()?;
+        let mut bank = self.bank.lock(py)?;
         let (phi, y, gamma) = (phi.view("phi")?, y.view("y")?, view("gamma", &gamma)?);
-        self.bank.update(phi, y, gamma).map(BankUpdate).map_err(raise)
+        bank.update(phi, y, gamma).map(BankUpdate).map_err(raise)
     }
 
     /// Take a whole record, without Python in the loop and without holding the interpreter.
@@ -316,7 +323,7 @@ impl Bank {
     ///     Names the sample and what is wrong with it; the bank is as it was before the record.
     #[pyo3(signature = (phi, y, gamma=None, outputs=None, missing="error"))]
     fn run(
-        &mut self,
+        &self,
         py: Python<'_>,
         phi: &Bound<'_, PyAny>,
         y: &Bound<'_, PyAny>,
@@ -327,57 +334,67 @@ impl Bank {
         let missing = Missing::named(missing).map_err(raise)?;
         let (phi, y) = (self.input("phi", phi)?, self.input("y", y)?);
         let gamma = gamma.map(|gamma| self.input("gamma", gamma)).transpose()?;
+        let mut held = self.bank.lock(py)?;
         let record = (phi.view("phi")?, y.view("y")?, view("gamma", &gamma)?);
-        let outputs = names(&outputs);
-        let run = py.detach(|| self.bank.run(record, missing, outputs.as_deref()));
+        let (bank, outputs) = (&mut *held, names(&outputs));
+        let run =
+            py.detach(|| bank.run_while(record, missing, outputs.as_deref(), &mut heed_signals));
         Run::new(py, run.map_err(raise)?)
     }
 
     /// Back to the start, as if no sample had been seen.
-    fn reset(&mut self) {
-        self.bank.reset();
+    fn reset(&self, py: Python<'_>) -> PyResult<()> {
+        self.bank.lock(py)?.reset();
+        Ok(())
     }
 
     /// The bank, configuration and state, as bytes: portable, versioned and checked.
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        Ok(PyBytes::new(py, &self.bank.to_bytes().map_err(raise)?))
+        Ok(PyBytes::new(py, &self.bank.lock(py)?.to_bytes().map_err(raise)?))
     }
 
     /// The bank that `to_bytes` saved, bit for bit.
     #[classmethod]
     fn from_bytes(_: &Bound<'_, PyType>, state: &[u8]) -> PyResult<Self> {
-        Ok(Self { bank: Inner::from_bytes(state).map_err(raise)? })
+        Ok(Self::of(Inner::from_bytes(state).map_err(raise)?))
     }
 
     fn __reduce__<'py>(
         slf: &Bound<'py, Self>,
     ) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
         let restore = slf.getattr("from_bytes")?;
-        Ok((restore, (slf.borrow().to_bytes(slf.py())?,)))
+        Ok((restore, (slf.get().to_bytes(slf.py())?,)))
     }
 
-    fn __copy__(&self) -> Self {
-        Self { bank: self.bank.clone() }
+    fn __copy__(&self, py: Python<'_>) -> PyResult<Self> {
+        Ok(Self::of(self.bank.lock(py)?.clone()))
     }
 
-    fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> Self {
-        self.__copy__()
+    fn __deepcopy__(&self, memo: &Bound<'_, PyAny>) -> PyResult<Self> {
+        self.__copy__(memo.py())
     }
 
-    fn __repr__(&self) -> String {
-        let (n, count) = (self.parameters(), self.bank.members().len());
-        let (mixer, samples) = (self.bank.mixer().name, self.samples());
-        format!("Bank({n}, {count} members, mixer={mixer:?}) after {samples} samples")
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let bank = self.bank.lock(py)?;
+        let (n, count) = (self.sizes[0], bank.members().len());
+        let (mixer, samples) = (bank.mixer().name, bank.samples());
+        Ok(format!("Bank({n}, {count} members, mixer={mixer:?}) after {samples} samples"))
     }
 }
 
 impl Bank {
+    fn of(bank: Inner) -> Self {
+        let (sizes, number_type) =
+            ([bank.parameters(), bank.rows(), bank.targets()], bank.number_type());
+        Self { bank: Shared::new(bank), sizes, number_type }
+    }
+
     fn input<'a, 'py>(
         &self,
         name: &str,
         values: &'a Bound<'py, PyAny>,
     ) -> PyResult<Input<'a, 'py>> {
-        Input::read(name, values, self.bank.number_type())
+        Input::read(name, values, self.number_type)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use forgetting_runtime::{CoreError, Error, Kind};
 use pyo3::exceptions::{PyArithmeticError, PyIndexError, PyMemoryError, PyValueError};
-use pyo3::{create_exception, PyErr};
+use pyo3::{create_exception, PyErr, Python};
 use std::cell::RefCell;
 
 create_exception!(
@@ -29,6 +29,12 @@ thread_local! {
 pub fn keep_exception(exception: PyErr) -> CoreError {
     EXCEPTION.set(Some(exception));
     CoreError::Function { parameter: "a function of yours" }
+}
+
+/// Whether a long calculation goes on: not once Python has a signal to raise an exception for, such
+/// as Ctrl-C.
+pub fn heed_signals() -> Result<(), CoreError> {
+    Python::attach(|py| py.check_signals()).map_err(keep_exception)
 }
 
 /// The exception for `error`.

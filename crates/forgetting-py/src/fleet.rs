@@ -4,7 +4,8 @@ use crate::arrays::{optional, output, Input};
 use crate::errors::{invalid, raise};
 use crate::rls::Rls;
 use crate::settings::{names, read_choices, read_optional, view, write_description, Whole};
-use forgetting_runtime::{check_shape, threads, NumberType, Settings};
+use crate::shared::Shared;
+use forgetting_runtime::{threads, Error, NumberType, Settings};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -59,8 +60,17 @@ use pyo3::types::{PyBytes, PyTuple, PyType};
 /// 1000
 /// >>> bool(abs(fleet.theta[:, 1] - slope).max() < 1e-3)
 /// True
-#[pyclass(name = "Fleet", module = "forgetting")]
-pub struct Fleet(forgetting_runtime::Fleet);
+///
+/// Notes
+/// -----
+/// Threads may share a fleet: each call waits for the one before it, without holding the
+/// interpreter.
+#[pyclass(frozen, name = "Fleet", module = "forgetting")]
+pub struct Fleet {
+    fleet: Shared<forgetting_runtime::Fleet>,
+    parameters: usize,
+    number_type: NumberType,
+}
 
 #[pymethods]
 impl Fleet {
@@ -97,48 +107,48 @@ impl Fleet {
         let mut fleet =
             forgetting_runtime::Fleet::new(count.0, &settings, factor).map_err(raise)?;
         fleet.set_threads(threads);
-        Ok(Self(fleet))
+        Ok(Self::of(fleet))
     }
 
     /// Number of streams.
     #[getter]
-    fn count(&self) -> usize {
-        self.0.count()
+    fn count(&self, py: Python<'_>) -> PyResult<usize> {
+        Ok(self.fleet.lock(py)?.count())
     }
 
-    fn __len__(&self) -> usize {
-        self.count()
+    fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
+        self.count(py)
     }
 
     /// Number n of parameters of each stream.
     #[getter]
     fn parameters(&self) -> usize {
-        self.0.parameters()
+        self.parameters
     }
 
     /// Cores that an update runs on; None for all where that is faster.
     #[getter]
-    fn threads(&self) -> Option<usize> {
-        self.0.threads()
+    fn threads(&self, py: Python<'_>) -> PyResult<Option<usize>> {
+        Ok(self.fleet.lock(py)?.threads())
     }
 
     #[setter]
-    fn set_threads(&mut self, count: Option<Whole>) -> PyResult<()> {
-        self.0.set_threads(threads(count.map(|count| count.0)).map_err(raise)?);
+    fn set_threads(&self, py: Python<'_>, count: Option<Whole>) -> PyResult<()> {
+        self.fleet.lock(py)?.set_threads(threads(count.map(|count| count.0)).map_err(raise)?);
         Ok(())
     }
 
     /// Name of the number type.
     #[getter]
     fn dtype(&self) -> &'static str {
-        self.0.number_type().name()
+        self.number_type.name()
     }
 
     /// The forgetting rule, as an object that would make the same one. Where forgetting factors
     /// differ, it has that of a new stream; see `forgetting_factor`.
     #[getter]
     fn rule<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let description = write_description(py, &self.0.describe())?;
+        let description = write_description(py, &self.fleet.lock(py)?.describe())?;
         let choices = py.import("forgetting.choices")?;
         choices.call_method1("rule_from_description", (description, self.dtype()))
     }
@@ -146,30 +156,30 @@ impl Fleet {
     /// The forgetting factor of each stream, (count,); None where it is not constant.
     #[getter]
     fn forgetting_factor(&self, py: Python<'_>) -> PyResult<Option<Py<PyAny>>> {
-        optional(py, self.0.forgetting_factor())
+        optional(py, self.fleet.lock(py)?.forgetting_factor())
     }
 
     /// The estimates, (count, n).
     #[getter]
     fn theta<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        output(py, self.0.theta())
+        output(py, self.fleet.lock(py)?.theta())
     }
 
     /// The diagonal of each stream's covariance P, (count, n), in units of 1/phi**2.
     #[getter]
     fn variance<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        output(py, self.0.variance())
+        output(py, self.fleet.lock(py)?.variance())
     }
 
     /// Samples used by each stream since its start, (count,).
     #[getter]
     fn samples<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        output(py, self.0.samples())
+        output(py, self.fleet.lock(py)?.samples())
     }
 
     /// The covariance P of the stream at `index`, (n, n), in units of 1/phi**2.
     fn covariance<'py>(&self, py: Python<'py>, index: Whole) -> PyResult<Bound<'py, PyAny>> {
-        output(py, self.0.covariance(index.0).map_err(raise)?)
+        output(py, self.fleet.lock(py)?.covariance(index.0).map_err(raise)?)
     }
 
     /// How far each estimate can be trusted now, in O(n) a stream.
@@ -178,7 +188,7 @@ impl Fleet {
     /// -------
     /// FleetHealth
     fn health<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let health = self.0.health();
+        let health = self.fleet.lock(py)?.health();
         let (largest, smallest) = (output(py, health.largest)?, output(py, health.smallest)?);
         let (windup, samples) = (output(py, health.windup)?, output(py, health.samples)?);
         let made = (self.dtype(), largest, smallest, windup, samples);
@@ -199,9 +209,10 @@ impl Fleet {
         py: Python<'py>,
         phi: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let phi = Input::read("phi", phi, self.0.number_type())?;
-        let phi = phi.view("phi")?;
-        output(py, py.detach(|| self.0.predict(phi)).map_err(raise)?)
+        let phi = Input::read("phi", phi, self.number_type)?;
+        let held = self.fleet.lock(py)?;
+        let (fleet, phi) = (&*held, phi.view("phi")?);
+        output(py, py.detach(|| fleet.predict(phi)).map_err(raise)?)
     }
 
     /// Take a sample of each stream, without holding the interpreter.
@@ -228,20 +239,21 @@ impl Fleet {
     ///     would leave the range of the number type, and that stream is as it was.
     #[pyo3(signature = (phi, y, mask=None, outputs=None))]
     fn update(
-        &mut self,
+        &self,
         py: Python<'_>,
         phi: &Bound<'_, PyAny>,
         y: &Bound<'_, PyAny>,
         mask: Option<&Bound<'_, PyAny>>,
         outputs: Option<Vec<String>>,
     ) -> PyResult<FleetUpdate> {
-        let number_type = self.0.number_type();
-        let mask = mask.map(|mask| read_mask(mask, self.count())).transpose()?;
+        let number_type = self.number_type;
+        let mask = mask.map(|mask| read_mask(mask)).transpose()?;
         let phi = Input::read("phi", phi, number_type)?;
         let y = Input::read("y", y, number_type)?;
+        let mut held = self.fleet.lock(py)?;
         let samples = (phi.view("phi")?, y.view("y")?, mask.as_deref());
-        let outputs = names(&outputs);
-        let update = py.detach(|| self.0.update(samples, outputs.as_deref())).map_err(raise)?;
+        let (fleet, outputs) = (&mut *held, names(&outputs));
+        let update = py.detach(|| fleet.update(samples, outputs.as_deref())).map_err(raise)?;
         Ok(FleetUpdate {
             error: optional(py, update.error)?,
             leverage: optional(py, update.leverage)?,
@@ -259,14 +271,15 @@ impl Fleet {
     ///     weighting and dtype. New streams start from what was given for all streams, and from
     ///     the default where one was given for each.
     fn append(slf: &Bound<'_, Self>, more: &Bound<'_, PyAny>) -> PyResult<()> {
+        let py = slf.py();
         if let Ok(other) = more.cast::<Self>() {
-            let other = other.borrow().0.clone();
-            return slf.borrow_mut().0.append(&other).map_err(raise);
+            let other = other.get().fleet.lock(py)?.clone();
+            return slf.get().fleet.lock(py)?.append(&other).map_err(raise);
         }
         let count = more
             .extract::<Whole>()
             .map_err(|_| invalid(format!("more = {more:?}, allowed: a whole number or a Fleet")))?;
-        slf.borrow_mut().0.grow(count.0).map_err(raise)
+        slf.get().fleet.lock(py)?.grow(count.0).map_err(raise)
     }
 
     /// Back to the initial estimate and covariance, as if no sample had been seen.
@@ -276,9 +289,9 @@ impl Fleet {
     /// mask : (count,) array of bool, optional
     ///     Which streams; all if not given.
     #[pyo3(signature = (mask=None))]
-    fn reset(&mut self, mask: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
-        let mask = mask.map(|mask| read_mask(mask, self.count())).transpose()?;
-        self.0.reset(mask.as_deref()).map_err(raise)
+    fn reset(&self, py: Python<'_>, mask: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
+        let mask = mask.map(|mask| read_mask(mask)).transpose()?;
+        self.fleet.lock(py)?.reset(mask.as_deref()).map_err(raise)
     }
 
     /// The streams as an Arrow table: one row a stream, with its number `stream` and its `state`,
@@ -298,48 +311,63 @@ impl Fleet {
 
     /// The state of a new stream, then that of each stream, as `RLS.to_bytes` says it.
     fn _states<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyBytes>>> {
-        let fresh = std::iter::once_with(|| self.0.fresh_state());
-        let states = fresh.chain((0..self.count() as i64).map(|stream| self.0.state(stream)));
-        states.map(|state| Ok(PyBytes::new(py, &state.map_err(raise)?))).collect()
+        let fleet = self.fleet.lock(py)?;
+        let fresh = std::iter::once_with(|| fleet.fresh_state());
+        let streams = (0..fleet.count() as i64).map(|stream| fleet.state(stream));
+        let bytes = |state: Result<Vec<u8>, Error>| {
+            py.check_signals()?;
+            Ok(PyBytes::new(py, &state.map_err(raise)?))
+        };
+        fresh.chain(streams).map(bytes).collect()
     }
 
     /// The fleet that has these states.
     #[staticmethod]
     fn _of_states(fresh: &[u8], states: Vec<Bound<'_, PyBytes>>) -> PyResult<Self> {
         let states: Vec<&[u8]> = states.iter().map(|state| state.as_bytes()).collect();
-        forgetting_runtime::Fleet::from_states(fresh, &states).map(Self).map_err(raise)
+        forgetting_runtime::Fleet::from_states(fresh, &states).map(Self::of).map_err(raise)
     }
 
     /// A copy of the stream at `index`, as an estimator that goes on from there.
     fn __getitem__(&self, index: &Bound<'_, PyAny>) -> PyResult<Rls> {
-        Ok(Rls { estimator: self.0.get(read_index(index)?).map_err(raise)? })
+        let index = (read_index(index)?, index.py());
+        self.fleet.lock(index.1)?.get(index.0).map(Rls::of).map_err(raise)
     }
 
     /// Puts a copy of `estimator` in the place of the stream at `index`.
-    fn __setitem__(&mut self, index: &Bound<'_, PyAny>, estimator: &Rls) -> PyResult<()> {
-        self.0.put(read_index(index)?, &estimator.estimator).map_err(raise)
+    fn __setitem__(&self, index: &Bound<'_, PyAny>, estimator: &Rls) -> PyResult<()> {
+        let (position, py) = (read_index(index)?, index.py());
+        let copy = estimator.copy(py)?;
+        self.fleet.lock(py)?.put(position, &copy).map_err(raise)
     }
 
     #[allow(clippy::type_complexity, reason = "Python's protocol")]
     fn __reduce__<'py>(
         slf: &Bound<'py, Self>,
     ) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyAny>, Bound<'py, PyAny>))> {
-        let mut states = slf.borrow()._states(slf.py())?;
+        let mut states = slf.get()._states(slf.py())?;
         let each = PyTuple::new(slf.py(), states.split_off(1))?.to_list().into_any();
         Ok((slf.getattr("_of_states")?, (states.remove(0).into_any(), each)))
     }
 
-    fn __copy__(&self) -> Self {
-        Self(self.0.clone())
+    fn __copy__(&self, py: Python<'_>) -> PyResult<Self> {
+        Ok(Self::of(self.fleet.lock(py)?.clone()))
     }
 
-    fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> Self {
-        self.__copy__()
+    fn __deepcopy__(&self, memo: &Bound<'_, PyAny>) -> PyResult<Self> {
+        self.__copy__(memo.py())
     }
 
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
         let rule = self.rule(py)?.repr()?;
-        Ok(format!("Fleet({}, {}, rule={rule})", self.count(), self.parameters()))
+        Ok(format!("Fleet({}, {}, rule={rule})", self.count(py)?, self.parameters))
+    }
+}
+
+impl Fleet {
+    fn of(fleet: forgetting_runtime::Fleet) -> Self {
+        let (parameters, number_type) = (fleet.parameters(), fleet.number_type());
+        Self { fleet: Shared::new(fleet), parameters, number_type }
     }
 }
 
@@ -350,15 +378,16 @@ fn read_index(index: &Bound<'_, PyAny>) -> PyResult<i64> {
         .map_err(|_| PyTypeError::new_err("the index of a stream is a whole number"))
 }
 
-/// A yes or no for each stream, copied.
-fn read_mask(mask: &Bound<'_, PyAny>, count: usize) -> PyResult<Vec<bool>> {
+/// A yes or no for each stream, copied; the fleet says how many there are to be.
+fn read_mask(mask: &Bound<'_, PyAny>) -> PyResult<Vec<bool>> {
     let array = mask.py().import("numpy")?.call_method1("asarray", (mask,))?;
-    let flat = array.call_method0("ravel")?;
-    let Ok(flat) = flat.cast::<PyArray1<bool>>() else {
-        return Err(invalid("mask must hold True or False, one for each stream"));
+    let Ok(flat) = array.cast::<PyArray1<bool>>() else {
+        let shape = array.getattr("shape")?;
+        return Err(invalid(format!(
+            "mask must hold True or False, one for each stream; it has shape {shape} and holds {}",
+            array.getattr("dtype")?
+        )));
     };
-    let shape = array.getattr("shape")?.extract::<Vec<usize>>()?;
-    check_shape("mask", &shape, &[count]).map_err(raise)?;
     Ok(flat.to_vec()?)
 }
 

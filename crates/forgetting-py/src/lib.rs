@@ -11,6 +11,7 @@ mod registry;
 mod rls;
 mod run;
 mod settings;
+mod shared;
 mod update;
 mod window;
 

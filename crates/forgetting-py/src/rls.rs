@@ -1,11 +1,12 @@
 //! The class `RLS`.
 
 use crate::arrays::{output, output_or_float, Input};
-use crate::errors::raise;
+use crate::errors::{heed_signals, raise};
 use crate::run::Run;
 use crate::settings::{
     names, read_choices, read_optional, view, write_description, write_health, Whole,
 };
+use crate::shared::Shared;
 use crate::update::Update;
 use forgetting_runtime::{size, Estimator, Missing, NumberType, Settings};
 use pyo3::prelude::*;
@@ -57,9 +58,18 @@ use pyo3::types::{PyBytes, PyDict, PyType};
 /// ...     u = est.update([1.0, k % 7], 3.0 + 0.5 * (k % 7))
 /// >>> est.theta.round(2)
 /// array([3. , 0.5])
-#[pyclass(name = "RLS", module = "forgetting")]
+///
+/// Notes
+/// -----
+/// Threads may share an estimator: each call waits for the one before it, without holding the
+/// interpreter. Only a function that an estimator itself calls cannot use it.
+#[pyclass(frozen, name = "RLS", module = "forgetting")]
 pub struct Rls {
-    pub(crate) estimator: Estimator,
+    estimator: Shared<Estimator>,
+    /// n, p and m
+    sizes: [usize; 3],
+    number_type: NumberType,
+    calls_function: bool,
 }
 
 #[pymethods]
@@ -95,70 +105,70 @@ impl Rls {
             monitor,
             ..choices
         };
-        Ok(Self { estimator: Estimator::new(&settings).map_err(raise)? })
+        Ok(Self::of(Estimator::new(&settings).map_err(raise)?))
     }
 
     /// Number n of parameters of each target.
     #[getter]
     fn parameters(&self) -> usize {
-        self.estimator.parameters()
+        self.sizes[0]
     }
 
     /// Measurements a sample that share one theta.
     #[getter]
     fn rows(&self) -> usize {
-        self.estimator.rows()
+        self.sizes[1]
     }
 
     /// Parameter vectors that share phi and one covariance.
     #[getter]
     fn targets(&self) -> usize {
-        self.estimator.targets()
+        self.sizes[2]
     }
 
     /// Name of the number type.
     #[getter]
     fn dtype(&self) -> &'static str {
-        self.estimator.number_type().name()
+        self.number_type.name()
     }
 
     /// Samples used since the start; skipped ones do not count.
     #[getter]
-    fn samples(&self) -> u64 {
-        self.estimator.samples()
+    fn samples(&self, py: Python<'_>) -> PyResult<u64> {
+        Ok(self.estimator.lock(py)?.samples())
     }
 
     /// The estimate, (n,) or (n, targets).
     #[getter]
     fn theta<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        output(py, self.estimator.theta())
+        output(py, self.estimator.lock(py)?.theta())
     }
 
     /// The covariance P, (n, n), in units of 1/phi**2: times the noise variance, it is that of
     /// the estimate.
     #[getter]
     fn covariance<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        output(py, self.estimator.covariance().map_err(raise)?)
+        output(py, self.estimator.lock(py)?.covariance().map_err(raise)?)
     }
 
     /// The units (n,) in which regressors are measured, 1 for one that has always been 0; None where an
     /// initial covariance was given.
     #[getter]
     fn units<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
-        self.estimator.units().map(|units| output(py, units)).transpose()
+        self.estimator.lock(py)?.units().map(|units| output(py, units)).transpose()
     }
 
     /// The factor of the covariance: U (n, n) unit upper triangular and D (n,) positive, with
     /// P = U @ diag(D) @ U.T.
     fn factor<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
-        let (unit, diagonal) = self.estimator.factor().map_err(raise)?;
+        let (unit, diagonal) = self.estimator.lock(py)?.factor().map_err(raise)?;
         Ok((output(py, unit)?, output(py, diagonal)?))
     }
 
     /// The largest and the smallest element of D, for `health`: O(n).
     #[pyo3(name = "_extremes")]
-    fn extremes(&self) -> (f64, f64) {
-        self.estimator.extremes()
+    fn extremes(&self, py: Python<'_>) -> PyResult<(f64, f64)> {
+        Ok(self.estimator.lock(py)?.extremes())
     }
 
     /// How far the estimate can be trusted now.
@@ -178,12 +188,14 @@ impl Rls {
 
     /// What the monitor has seen, as a dictionary; None without one.
     fn watched<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
-        self.estimator.health().map(|health| write_health(py, health)).transpose()
+        let health = self.estimator.lock(py)?.health();
+        health.map(|health| write_health(py, health)).transpose()
     }
 
     /// The rule, rate, weighting and gate by name, each with its parameters.
     fn describe<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        write_description(py, &self.estimator.describe())
+        let description = self.estimator.lock(py)?.describe();
+        write_description(py, &description)
     }
 
     /// The forgetting rule, as an object that would make the same one.
@@ -221,8 +233,9 @@ impl Rls {
         py: Python<'py>,
         phi: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let phi = Input::read("phi", phi, self.estimator.number_type())?;
-        output_or_float(py, self.estimator.predict(phi.view("phi")?).map_err(raise)?)
+        let phi = Input::read("phi", phi, self.number_type)?;
+        let estimator = self.estimator.lock(py)?;
+        output_or_float(py, estimator.predict(phi.view("phi")?).map_err(raise)?)
     }
 
     /// Take one sample.
@@ -246,15 +259,17 @@ impl Rls {
     ///     When the covariance would overflow. In either case nothing has changed.
     #[pyo3(signature = (phi, y, gamma=None))]
     fn update(
-        &mut self,
+        &self,
+        py: Python<'_>,
         phi: &Bound<'_, PyAny>,
         y: &Bound<'_, PyAny>,
         gamma: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Update> {
         let (phi, y) = (self.input("phi", phi)?, self.input("y", y)?);
         let gamma = gamma.map(|gamma| self.input("gamma", gamma)).transpose()?;
+        let mut estimator = self.estimator.lock(py)?;
         let (phi, y, gamma) = (phi.view("phi")?, y.view("y")?, view("gamma", &gamma)?);
-        self.estimator.update(phi, y, gamma).map(Update).map_err(raise)
+        estimator.update(phi, y, gamma).map(Update).map_err(raise)
     }
 
     /// Take a whole record, without Python in the loop and without holding the interpreter.
@@ -284,7 +299,7 @@ impl Rls {
     ///     record.
     #[pyo3(signature = (phi, y, gamma=None, outputs=None, missing="error"))]
     fn run(
-        &mut self,
+        &self,
         py: Python<'_>,
         phi: &Bound<'_, PyAny>,
         y: &Bound<'_, PyAny>,
@@ -295,52 +310,70 @@ impl Rls {
         let missing = Missing::named(missing).map_err(raise)?;
         let (phi, y) = (self.input("phi", phi)?, self.input("y", y)?);
         let gamma = gamma.map(|gamma| self.input("gamma", gamma)).transpose()?;
+        let mut held = self.estimator.lock(py)?;
         let record = (phi.view("phi")?, y.view("y")?, view("gamma", &gamma)?);
-        let outputs = names(&outputs);
-        let run = py.detach(|| self.estimator.run(record, missing, outputs.as_deref()));
+        let (estimator, outputs) = (&mut *held, names(&outputs));
+        let run = py
+            .detach(|| estimator.run_while(record, missing, outputs.as_deref(), &mut heed_signals));
         Run::new(py, run.map_err(raise)?)
     }
 
     /// Back to the initial estimate and covariance, as if no sample had been seen.
-    fn reset(&mut self) {
-        self.estimator.reset();
+    fn reset(&self, py: Python<'_>) -> PyResult<()> {
+        self.estimator.lock(py)?.reset();
+        Ok(())
     }
 
     /// The estimator, configuration and state, as bytes: portable, versioned and checked.
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        Ok(PyBytes::new(py, &self.estimator.to_bytes().map_err(raise)?))
+        Ok(PyBytes::new(py, &self.estimator.lock(py)?.to_bytes().map_err(raise)?))
     }
 
     /// The estimator that `to_bytes` saved, bit for bit.
     #[classmethod]
     fn from_bytes(_: &Bound<'_, PyType>, state: &[u8]) -> PyResult<Self> {
-        Ok(Self { estimator: Estimator::from_bytes(state).map_err(raise)? })
+        Ok(Self::of(Estimator::from_bytes(state).map_err(raise)?))
     }
 
     fn __reduce__<'py>(
         slf: &Bound<'py, Self>,
     ) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
         let restore = slf.getattr("from_bytes")?;
-        Ok((restore, (slf.borrow().to_bytes(slf.py())?,)))
+        Ok((restore, (slf.get().to_bytes(slf.py())?,)))
     }
 
-    fn __copy__(&self) -> PyResult<Self> {
-        Ok(Self { estimator: self.estimator.copy().map_err(raise)? })
+    fn __copy__(&self, py: Python<'_>) -> PyResult<Self> {
+        self.copy(py).map(Self::of)
     }
 
-    fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> PyResult<Self> {
-        self.__copy__()
+    fn __deepcopy__(&self, memo: &Bound<'_, PyAny>) -> PyResult<Self> {
+        self.__copy__(memo.py())
     }
 
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
         let rule = self.rule(py)?.repr()?;
         let (n, p, m) = (self.parameters(), self.rows(), self.targets());
-        let samples = self.samples();
+        let samples = self.samples(py)?;
         Ok(format!("RLS({n}, rule={rule}, rows={p}, targets={m}) after {samples} samples"))
     }
 }
 
 impl Rls {
+    /// With this estimator.
+    pub fn of(estimator: Estimator) -> Self {
+        Self {
+            sizes: [estimator.parameters(), estimator.rows(), estimator.targets()],
+            number_type: estimator.number_type(),
+            calls_function: estimator.calls_function(),
+            estimator: Shared::new(estimator),
+        }
+    }
+
+    /// A copy of the estimator.
+    pub fn copy(&self, py: Python<'_>) -> PyResult<Estimator> {
+        self.estimator.lock(py)?.copy().map_err(raise)
+    }
+
     /// Numbers for a sample or a record: copied if Python code runs while they are read.
     #[inline(always)]
     fn input<'a, 'py>(
@@ -348,7 +381,6 @@ impl Rls {
         name: &str,
         values: &'a Bound<'py, PyAny>,
     ) -> PyResult<Input<'a, 'py>> {
-        let (number_type, copy) = (self.estimator.number_type(), self.estimator.calls_function());
-        Input::read_or_copy(name, values, number_type, copy)
+        Input::read_or_copy(name, values, self.number_type, self.calls_function)
     }
 }

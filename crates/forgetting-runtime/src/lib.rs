@@ -42,7 +42,7 @@ pub use bank::{Bank, BankSettings, BankUpdate, Member, BANK_OUTPUTS};
 pub use bounds::{covariance_bounds, CovarianceBounds};
 pub use choice::{Choice, Description, Value};
 pub use error::{check_shape, Error, Kind};
-pub use estimator::{Estimator, Health, Missing, Run};
+pub use estimator::{Estimator, GoOn, Health, Missing, Run};
 pub use fleet::{Fleet, FleetUpdate, StreamHealth};
 pub use forgetting::choice::function::Argument;
 pub use forgetting::{Answer, Error as CoreError, Skip};

@@ -100,7 +100,8 @@ fn each_does_what_it_says() {
                 estimator.update(phi[..].into(), y[..].into(), None).unwrap();
                 other.update(phi[..].into(), y[..].into(), None).unwrap();
             }
-            let pair = [estimator.covariance(), other.covariance()].map(|p| p.unwrap().elements.to_f64());
+            let pair =
+                [estimator.covariance(), other.covariance()].map(|p| p.unwrap().elements.to_f64());
             let close = |(x, y): (&f64, &f64)| (x - y).abs() <= tolerance * y.abs();
             assert!(pair[0].iter().zip(&pair[1]).all(close), "{pair:?}");
         }

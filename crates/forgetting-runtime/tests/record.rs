@@ -170,7 +170,7 @@ fn a_prediction_has_the_shape_of_its_regressors() {
     }
     assert_eq!(estimator.predict(view(&phi[..2], &[2])).unwrap().shape, [2]);
     let error = estimator.predict(view(&phi, &[2, 3])).unwrap_err();
-    assert_eq!(error.to_string(), "phi has shape [2, 3], expected (..., 2)");
+    assert_eq!(error.to_string(), "phi has shape (2, 3), expected (..., 2)");
     let error = View::new("phi", &phi[..], &[2, 2]).unwrap_err();
     assert_eq!(error.to_string(), "phi has 6 elements, expected 4");
 }

@@ -8,7 +8,7 @@ pub use record::BANK_OUTPUTS;
 
 use crate::choice::{Choice, Description};
 use crate::error::Error;
-use crate::estimator::{units, Missing, Run};
+use crate::estimator::{units, GoOn, Missing, Run};
 use crate::number::{each, make, ByType, Family, Number};
 use crate::number::{Array, NumberType, View};
 use crate::shape;
@@ -109,8 +109,22 @@ impl Bank {
         missing: Missing,
         outputs: Option<&[&str]>,
     ) -> Result<Run, Error> {
+        self.run_while(record, missing, outputs, &mut || Ok(()))
+    }
+
+    /// [`Bank::run`], asking a few times a second whether to go on.
+    ///
+    /// # Errors
+    /// Those of [`Bank::run`], and [`Error::Sample`] with what `go_on` answers.
+    pub fn run_while(
+        &mut self,
+        record: (View<'_>, View<'_>, Option<View<'_>>),
+        missing: Missing,
+        outputs: Option<&[&str]>,
+        go_on: GoOn<'_>,
+    ) -> Result<Run, Error> {
         let outputs = outputs.unwrap_or(&record::DEFAULT_OUTPUTS);
-        each!(&mut self.typed, bank => record::run(bank, record, missing, outputs))
+        each!(&mut self.typed, bank => record::run(bank, record, missing, outputs, go_on))
     }
 
     /// φθ of one regressor or many: (..., n) gives (...) or (..., m).

@@ -2,7 +2,7 @@
 
 use super::by_parameter;
 use crate::error::Error;
-use crate::estimator::record::{Missing, RecordNoise, Run, Sizes};
+use crate::estimator::record::{GoOn, Missing, Pause, RecordNoise, Run, Sizes};
 use crate::number::{Array, Elements, Number, View};
 use forgetting::bank::{Bank, BankUpdate};
 use forgetting::{Answer, Memory, Noise, Skip};
@@ -53,6 +53,7 @@ pub(super) fn run<T: Number>(
     (phi, y, gamma): (View<'_>, View<'_>, Option<View<'_>>),
     missing: Missing,
     outputs: &[&str],
+    go_on: GoOn<'_>,
 ) -> Result<Run, Error> {
     let sizes = Sizes::of(bank.memory(), &phi, &y)?;
     let count = bank.members().len();
@@ -64,6 +65,7 @@ pub(super) fn run<T: Number>(
         _ => RecordNoise::Unit,
     };
     let Sizes { samples, parameters: n, rows: p, targets: m } = sizes;
+    let mut pause = Pause::new(go_on, count * p, n);
     let taken = bank.all_or_nothing(|bank| {
         for k in 0..samples {
             let phi = &phi[k * p * n..(k + 1) * p * n];
@@ -72,6 +74,7 @@ pub(super) fn run<T: Number>(
             let missing = missing == Missing::Skip && (is_missing(phi) || is_missing(y));
             let sample = (!missing).then_some((phi, y, noise.at(k, p)));
             outputs.take(bank, sample, p * m).map_err(|error| (k, error))?;
+            pause.after(1).map_err(|error| (k, error))?;
         }
         Ok(())
     });

@@ -6,7 +6,7 @@ pub(crate) mod record;
 
 pub(crate) use accessors::{covariance, units};
 pub use health::Health;
-pub use record::{Missing, Run};
+pub use record::{GoOn, Missing, Run};
 
 use crate::choice::{has_function, Description};
 use crate::configure::{self, check_copies};
@@ -119,12 +119,26 @@ impl Estimator {
     /// not fit; the estimator is as it was before the record.
     pub fn run(
         &mut self,
-        (phi, y, gamma): (View<'_>, View<'_>, Option<View<'_>>),
+        record: (View<'_>, View<'_>, Option<View<'_>>),
         missing: Missing,
         outputs: Option<&[&str]>,
     ) -> Result<Run, Error> {
+        self.run_while(record, missing, outputs, &mut || Ok(()))
+    }
+
+    /// [`Estimator::run`], asking a few times a second whether to go on.
+    ///
+    /// # Errors
+    /// Those of [`Estimator::run`], and [`Error::Sample`] with what `go_on` answers.
+    pub fn run_while(
+        &mut self,
+        record: (View<'_>, View<'_>, Option<View<'_>>),
+        missing: Missing,
+        outputs: Option<&[&str]>,
+        go_on: GoOn<'_>,
+    ) -> Result<Run, Error> {
         let outputs = outputs.unwrap_or(&Run::DEFAULT_OUTPUTS);
-        each!(&mut self.typed, e => record::run(e, (phi, y, gamma), missing, outputs))
+        each!(&mut self.typed, e => record::run(e, record, missing, outputs, go_on))
     }
 
     /// φθ of one regressor or many: (..., n) gives (...) or (..., m).

@@ -91,7 +91,7 @@ impl<T: Kernels> AnyEstimator<T> {
 
 /// The bytes that the state of an estimator of the sizes of this one takes at least.
 pub fn least_length<T: Kernels>(estimator: &AnyEstimator<T>) -> usize {
-    read::least_length(estimator.prior().memory(), 0)
+    read::least_length(estimator.prior().memory(), u8::MAX)
 }
 
 /// The bytes of a number in a saved state: 4 or 8.

@@ -126,7 +126,8 @@ pub(super) fn least_length<T: Kernels>(memory: Dynamic<T>, form: u8) -> usize {
     let prior = match form {
         0 => 1,
         1 => n,
-        _ => factor,
+        2 => factor,
+        _ => 0,
     };
     (2 * m * n + prior + factor) * T::BYTES
 }
@@ -157,7 +158,7 @@ fn check_memory<T: Kernels>(
     });
     let squares = inner.chain([rule]).filter_map(|name| RULES.iter().find(|a| a.name == name));
     // P₀ as a matrix is one more
-    let prior = usize::from(form > 1);
+    let prior = usize::from(form == 2);
     memory.check_room(squares.map(|about| about.squares).sum::<usize>() + prior, 1)
 }
 

@@ -5,9 +5,9 @@ use crate::subjects::{pairs, subjects, update, Given, Item, Subject};
 use crate::target::{fuzz, number};
 use forgetting::choice::{About, Defaults, Kind};
 use forgetting::gates::{AnyGate, GATES};
+use forgetting::memory::state::Visitor;
 use forgetting::rates::{AnyRate, RATES};
 use forgetting::saved::AnyEstimator;
-use forgetting::state::Visitor;
 use forgetting::weightings::{AnyWeighting, WEIGHTINGS};
 use forgetting::{Dynamic, Estimator, Kernels, Noise, Prior, Real};
 use proptest::prelude::*;
@@ -89,7 +89,7 @@ fn estimator<T: Kernels>(trial: &Trial) -> Option<AnyEstimator<T>> {
     let prior = Prior::scalar(memory, T::from_f64(10f64.powf(trial.start.0))).ok()?;
     let mut estimator = Estimator::new(rule, rate, weighting, prior).with_gate(gate);
     if trial.monitored {
-        estimator.watch();
+        estimator.enable_monitor();
     }
     Some(estimator)
 }

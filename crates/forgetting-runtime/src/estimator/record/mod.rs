@@ -2,6 +2,7 @@
 
 mod noise;
 mod outputs;
+mod pause;
 mod run;
 mod shapes;
 
@@ -13,6 +14,8 @@ use crate::number::{Number, View};
 use forgetting::{AnyEstimator, Outcome};
 pub(crate) use noise::RecordNoise;
 use outputs::Outputs;
+pub use pause::GoOn;
+pub(crate) use pause::Pause;
 pub(crate) use shapes::Sizes;
 
 /// What is done with a sample that has a NaN.
@@ -53,6 +56,7 @@ pub(super) fn run<T: Number>(
     (phi, y, gamma): (View<'_>, View<'_>, Option<View<'_>>),
     missing: Missing,
     outputs: &[&str],
+    go_on: GoOn<'_>,
 ) -> Result<Run, Error> {
     let sizes = Sizes::of(estimator.prior().memory(), &phi, &y)?;
     let mut outputs = Outputs::<T>::named(outputs, sizes)?;
@@ -66,7 +70,9 @@ pub(super) fn run<T: Number>(
     // the state of before is kept until all is done
     check_copies(estimator, 1)?;
     outputs.prepare(estimator);
-    let taken = estimator.all_or_nothing(|estimator| take(estimator, &record, &mut outputs));
+    let mut pause = Pause::new(go_on, sizes.rows, sizes.parameters);
+    let taken =
+        estimator.all_or_nothing(|estimator| take(estimator, &record, &mut outputs, &mut pause));
     estimator.keep_innovations(false);
     estimator.keep_prior(false);
     taken.map_err(|(sample, error)| Error::Sample { sample, error })?;
@@ -80,6 +86,7 @@ fn take<T: Number>(
     estimator: &mut AnyEstimator<T>,
     record: &Record<'_, T>,
     outputs: &mut Outputs<T>,
+    pause: &mut Pause<'_>,
 ) -> Result<(), (usize, forgetting::Error)> {
     let together = matches!(record.noise, RecordNoise::Unit)
         && !outputs.need_every_state()
@@ -91,6 +98,7 @@ fn take<T: Number>(
         if taken == 0 {
             one(estimator, record, k, outputs).map_err(|error| (k, error))?;
         }
+        pause.after(taken.max(1)).map_err(|error| (k, error))?;
         k += taken.max(1);
     }
     Ok(())
