@@ -104,6 +104,10 @@ impl<M: Memory> Measured<M> {
         if used > 0 {
             self.follow(recursion);
         }
+        if let Some(last) = thetas.chunks_exact_mut(n).nth(taken - 1) {
+            // in units that may have been renewed, as after one update
+            last.copy_from_slice(self.theta.as_ref());
+        }
         taken
     }
 

@@ -1,0 +1,141 @@
+"""Without an initial covariance no prediction depends on the units of the columns."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import forgetting as fg
+
+RULES = [
+    entry["name"]
+    for entry in fg.rules()
+    if not any(parameter["required"] for parameter in entry["parameters"])
+]
+# what each header says is in units of y
+IN_UNITS_OF_Y = {"data_dependent"}
+
+
+def record(
+    samples: int = 400, n: int = 4, seed: int = 0, first: float | None = None
+) -> tuple[np.ndarray, np.ndarray]:
+    """Regressors of different sizes, one silent at first and one in the middle; drifting parameters.
+
+    With `first`, the silent one has spoken all along, and is `first` times larger at the start.
+    """
+    random = np.random.default_rng(seed)
+    phi = random.normal(size=(samples, n)) * [1.0, 20.0, 0.3, 1.0]
+    if first is None:
+        phi[:37, 1] = 0.0
+    else:
+        phi[0, 1] *= first
+    phi[150:250, 2] = 0.0
+    phi[:, 3] = 1.0
+    theta = np.cumsum(0.02 * random.normal(size=(samples, n)), axis=0)
+    return phi, (phi * theta).sum(axis=1) + 0.1 * random.normal(size=samples)
+
+
+def moved(one: np.ndarray, other: np.ndarray) -> float:
+    """The largest difference, relative to the root mean square of the errors."""
+    return float(np.abs(one - other).max() / np.sqrt(np.mean(one**2)))
+
+
+def errors(estimator: object, phi: np.ndarray, y: np.ndarray) -> np.ndarray:
+    return np.asarray(estimator.run(phi, y, outputs=("error",)).error).reshape(-1)  # type: ignore[attr-defined]
+
+
+@pytest.mark.parametrize("name", RULES)
+def test_units_of_regressors_change_no_prediction(name):
+    phi, y = record()
+    plain = errors(fg.RLS(4, rule=name), phi, y)
+    for units in ([1e6, 1e-6, 1e3, 10.0], [1e-4, 1e5, 1.0, 1e-6]):
+        assert moved(plain, errors(fg.RLS(4, rule=name), phi * units, y)) < 1e-6
+
+
+@pytest.mark.parametrize("name", sorted(set(RULES) - IN_UNITS_OF_Y))
+def test_units_of_the_output_change_no_prediction(name):
+    phi, y = record()
+    plain = errors(fg.RLS(4, rule=name), phi, y)
+    assert moved(plain, errors(fg.RLS(4, rule=name), phi, 1e6 * y) / 1e6) < 1e-6
+
+
+def test_units_change_no_prediction_of_a_bank():
+    phi, y = record()
+    plain = errors(fg.Bank(4), phi, y)
+    other = errors(fg.Bank(4), phi * [1e6, 1e-6, 1e3, 10.0], 1e-5 * y) * 1e5
+    assert moved(plain, other) < 1e-6
+
+
+@pytest.mark.parametrize("name", RULES)
+def test_parameters_and_covariance_are_in_the_units_of_the_user(name):
+    phi, y = record()
+    units = np.array([1e3, 1e-2, 10.0, 1e-3])
+    one, other = fg.RLS(4, rule=name), fg.RLS(4, rule=name)
+    outputs = ("theta", "variance", "covariance", "prior_covariance")
+    run = one.run(phi, y, outputs=outputs)
+    scaled = other.run(phi * units, y, outputs=outputs)
+    both = np.outer(units, units)
+    for found, wanted in (
+        # from where every regressor has been other than 0
+        (scaled.theta[40:] * units, run.theta[40:]),
+        (scaled.variance[40:] * units**2, run.variance[40:]),
+        (scaled.covariance[40:] * both, run.covariance[40:]),
+        (scaled.prior_covariance[40:] * both, run.prior_covariance[40:]),
+        (other.covariance * both, one.covariance),
+        (other.units / units, one.units),
+    ):
+        np.testing.assert_allclose(found, wanted, rtol=1e-5, atol=1e-9)
+    unit, diagonal = other.factor()
+    np.testing.assert_allclose(unit * diagonal @ unit.T, other.covariance, rtol=1e-9)
+
+
+def test_units_are_root_mean_squares_renewed_at_doublings():
+    phi, y = record(samples=100)
+    est = fg.RLS(4)
+    assert est.units.tolist() == [1.0] * 4
+    for k in range(100):
+        est.update(phi[k], y[k])
+        if k + 1 in (8, 16, 32, 64):
+            seen = phi[: k + 1]
+            counts = np.maximum((seen != 0).sum(axis=0), 1)
+            wanted = np.sqrt((seen**2).sum(axis=0) / counts)
+            spoken = (seen != 0).any(axis=0)
+            np.testing.assert_allclose(est.units[spoken], wanted[spoken], rtol=1e-12)
+
+
+def test_a_sample_that_is_refused_changes_nothing():
+    est = fg.RLS(2, initial_theta=[1.0, 2.0])
+    fresh = est.to_bytes()
+    for phi, y in (([np.nan, 1.0], 0.0), ([1.0, np.inf], 0.0), ([3.0, 2.0], np.nan)):
+        with pytest.raises(fg.InvalidInput):
+            est.update(phi, y)
+        assert est.to_bytes() == fresh
+    with pytest.raises(fg.InvalidInput, match=r"phi\[1\]"):
+        est.update([1.0, np.nan], 0.0)
+    assert est.theta.tolist() == [1.0, 2.0]
+
+
+def test_the_first_estimate_is_that_which_was_given():
+    est = fg.RLS(2, initial_theta=[1.0, 2.0])
+    assert est.update([100.0, 0.0], 100.0).error == pytest.approx(0.0, abs=1e-12)
+    assert est.update([0.0, 1e-3], 2e-3).error == pytest.approx(0.0, abs=1e-15)
+    np.testing.assert_allclose(est.theta, [1.0, 2.0], rtol=1e-12)
+
+
+@pytest.mark.parametrize("dtype", ["float64", "float32"])
+def test_a_first_value_that_is_not_typical_is_harmless(dtype):
+    plain = errors(fg.RLS(4, dtype=dtype), *record(seed=3, first=1.0))
+    for first in (1e-3, 1e3):
+        late = errors(fg.RLS(4, dtype=dtype), *record(seed=3, first=first))[100:]
+        assert np.sqrt(np.mean(late**2)) < 1.05 * np.sqrt(np.mean(plain[100:] ** 2))
+
+
+@pytest.mark.parametrize("name", RULES)
+def test_saved_in_the_middle(name):
+    phi, y = record()
+    whole, first = fg.RLS(4, rule=name, monitor=True), fg.RLS(4, rule=name, monitor=True)
+    run = whole.run(phi, y)
+    first.run(phi[:137], y[:137])
+    second = fg.RLS.from_bytes(first.to_bytes())
+    assert np.array_equal(second.run(phi[137:], y[137:]).error, run.error[137:])
+    assert second.to_bytes() == whole.to_bytes()
