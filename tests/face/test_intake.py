@@ -127,9 +127,10 @@ def test_what_is_no_number_is_refused_everywhere(values: object, message: str) -
         ("information", lambda: fg.RLS(3, rule=fg.ExponentialResetting(0.9, information=values))),
         ("phi", lambda: fleet.update(row, [1.0])),
         ("phi", lambda: meter.add(values)),
-        ("y", lambda: fg.ARX(na=1, nb=0).fit(None, values)),
         ("regressors", lambda: analysis.excitation(row, window=1)),
     ]
+    if message != "masked array":  # of which a model knows what it means
+        calls.append(("y", lambda: fg.ARX(na=1, nb=0).fit(None, values)))
     if message != "must hold numbers":
         calls += [
             ("y", lambda: fleet.update(np.ones((1, 3)), one)),

@@ -5,18 +5,17 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from forgetting._core import InvalidInput
+from forgetting._core import InvalidInput, numbers
 
 Array = NDArray[np.float64]
 
 
 def channels(name: str, values: ArrayLike) -> Array:
     """Return (T,) or (T, c) as (T, c) float64; NaN and a mask mean missing, Inf is refused."""
-    refuse_kind(name, values)
-    try:
-        array = np.array(np.ma.filled(np.ma.asarray(values, dtype=np.float64), np.nan))
-    except (TypeError, ValueError) as error:
-        raise InvalidInput(f"{name} must hold numbers: {error}") from None
+    if isinstance(values, np.ma.MaskedArray):
+        array = np.ma.masked_array(numbers(name, values.data), values.mask).filled(np.nan)
+    else:
+        array = numbers(name, values)
     if array.ndim == 1:
         array = array[:, None]
     if array.ndim != 2:
@@ -25,15 +24,6 @@ def channels(name: str, values: ArrayLike) -> Array:
         row = int(np.argwhere(np.isinf(array))[0][0])
         raise InvalidInput(f"{name} is infinite in row {row}; it must be finite, or NaN")
     return array
-
-
-def refuse_kind(name: str, values: ArrayLike) -> None:
-    """Refuse what NumPy would turn into real numbers by dropping or inventing a part of it."""
-    kind = getattr(values, "dtype", None)
-    kind = np.asarray(values).dtype if not isinstance(kind, np.dtype) else kind
-    what = {"c": "complex numbers", "M": "date-times", "m": "durations"}.get(kind.kind)
-    if what is not None:
-        raise InvalidInput(f"{name} holds {what} ({kind}); it must hold real numbers")
 
 
 def paired(u: ArrayLike | None, y: ArrayLike) -> tuple[Array, Array]:
