@@ -5,6 +5,8 @@
 #                and sizes. For the C++ peers: a C++ compiler, and Debian's libeigen3-dev, libdlib-dev,
 #                libopenblas0-pthread; without them the report says what is missing
 #   make docs    the documentation, warnings as errors
+#   make fuzz    random input for FUZZ_SECONDS a target (an hour), new seeds each time
+#   make soak    a billion samples through every rule of O(n^2), in hours; goes on where it was stopped
 #   make stubs   write again what is generated from the registries: stubs, README table, rule pages
 
 PYTHON ?= python3
@@ -19,7 +21,11 @@ DEVELOP = . $(BIN)/activate && maturin develop --quiet
 RECORDS := pvanalytics==0.2.2 sweat==0.25.0
 WITH_RECORDS = PYTHONPATH=$(CURDIR)/$(VENV)/records
 
-.PHONY: demo test lint rust python build bench bench-full docs stubs clean
+FUZZ_SECONDS ?= 3600
+SOAK_STEPS ?= 1000000000
+SOAK_FOLDER ?= $(CURDIR)/build/soak
+
+.PHONY: fuzz soak demo test lint rust python build bench bench-full docs stubs clean
 
 demo: $(VENV)/records
 	$(DEVELOP) --profile $(PROFILE) --extras cli
@@ -56,6 +62,14 @@ $(VENV)/ready: pyproject.toml $(VENV)/records
 	cargo clippy --version >/dev/null && cargo fmt --version >/dev/null
 	$(DEVELOP) --profile $(PROFILE) --extras cli,test
 	touch $@
+
+fuzz:
+	FUZZ_SECONDS=$(FUZZ_SECONDS) FUZZ_SEED=$$(date +%s) cargo test --package forgetting --profile $(PROFILE) \
+	    --test fuzz --quiet -- --nocapture
+
+soak:
+	SOAK_STEPS=$(SOAK_STEPS) SOAK_FOLDER=$(SOAK_FOLDER) cargo test --package forgetting \
+	    --profile $(PROFILE) --test soak --quiet -- --nocapture
 
 stubs: build
 	$(BIN)/python tools/generate.py

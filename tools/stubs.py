@@ -22,7 +22,8 @@ HEAD = """\
 from collections.abc import Callable, Mapping
 from typing import Any, ClassVar, Literal
 
-from numpy.typing import ArrayLike
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from ._core import Evidence
 from .choices import {written}
@@ -36,6 +37,9 @@ TYPES = {
     "rule": "Rule | str",
     "function": "Callable[[Evidence], float]",
 }
+MATRIX = "NDArray[np.float64]"
+#: of R, phi and the error, all as matrices
+MATRIX_FUNCTION = f"Callable[[{MATRIX}, {MATRIX}, {MATRIX}], ArrayLike]"
 
 
 GATE_FUNCTION = 'Callable[[Evidence], Literal["update", "freeze", "hold"]]'
@@ -48,6 +52,8 @@ def parameter(entry: Mapping[str, Any], of: type[choices.Choice]) -> str:
     annotation = f"Literal[{words}]" if kind == "word" else TYPES[kind]
     if kind == "function" and issubclass(of, choices.Gate):
         annotation = GATE_FUNCTION
+    if kind == "function" and issubclass(of, choices.Rule):
+        annotation = MATRIX_FUNCTION
     if entry["required"]:
         return f"{entry['name']}: {annotation}"
     default = entry["default"]

@@ -101,7 +101,7 @@ def from_arrow(table: Any) -> Fleet:
 
 
 def _in_order(table: Any, states: list[bytes]) -> list[bytes]:
-    """The states by the number of their stream, where the table has it: rows may come in any order."""
+    """The states by the number of their stream, if the table has it: rows may be in any order."""
     if "stream" not in table.column_names:
         return states
     streams = table.column("stream").to_pylist()

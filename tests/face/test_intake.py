@@ -129,7 +129,7 @@ def test_what_is_no_number_is_refused_everywhere(values: object, message: str) -
         ("phi", lambda: meter.add(values)),
         ("regressors", lambda: analysis.excitation(row, window=1)),
     ]
-    if message != "masked array":
+    if message != "masked array":  # of which a model knows what it means
         calls.append(("y", lambda: fg.ARX(na=1, nb=0).fit(None, values)))
     if message != "must hold numbers":
         calls += [

@@ -156,7 +156,7 @@ except KeyboardInterrupt:
 
 CALLS = [
     (
-        "est = fg.RLS(100, rule='subspace'); phi = np.random.randn(150_000, 100)",
+        "est = fg.RLS(300, rule='subspace'); phi = np.random.randn(80_000, 300)",
         "est.run(phi, phi[:, 0], outputs=())",
     ),
     (

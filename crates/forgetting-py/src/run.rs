@@ -36,6 +36,11 @@ use pyo3::prelude::*;
 ///     Of a bank: how far each member was believed in the prediction of the sample.
 /// memory : ndarray (T,)
 ///     Of a bank: over how many samples it remembers, after the sample.
+/// weight : ndarray (T,)
+///     Gamma of each sample was divided by this: by the weight of the weighting, and by what the rule
+///     made of the sample (`data_dependent`, `efra`).
+/// reweighted : bool
+///     Whether any weight is not 1, also where they are not kept.
 /// samples, used, skipped_count : int
 ///     Number of samples in the record, used, and left out.
 #[pyclass(frozen, get_all, module = "forgetting")]
@@ -52,11 +57,13 @@ pub struct Run {
     variance: Option<Py<PyAny>>,
     covariance: Option<Py<PyAny>>,
     prior_covariance: Option<Py<PyAny>>,
+    weight: Option<Py<PyAny>>,
     weights: Option<Py<PyAny>>,
     memory: Option<Py<PyAny>>,
     samples: usize,
     used: usize,
     skipped_count: usize,
+    reweighted: bool,
 }
 
 impl Run {
@@ -76,11 +83,13 @@ impl Run {
             variance: take("variance")?,
             covariance: take("covariance")?,
             prior_covariance: take("prior_covariance")?,
+            weight: take("weight")?,
             weights: take("weights")?,
             memory: take("memory")?,
             samples: run.samples,
             used: run.used,
             skipped_count: run.samples - run.used,
+            reweighted: run.reweighted,
         })
     }
 }

@@ -10,7 +10,11 @@ use pyo3::prelude::*;
 /// error : float or ndarray
 ///     y - phi @ theta with the theta of before, in units of y; (rows,) or (rows, targets).
 /// leverage : float
-///     Variance of the prediction in units of the noise variance (its trace for rows > 1).
+///     Variance of the prediction in units of the noise variance (its trace for rows > 1): phi @ P @
+///     phi.T with P after forgetting, over gamma and times the weight of the weighting.
+/// weight : float
+///     Gamma was divided by this: by the weight of the weighting, and by what the rule made of the
+///     sample (`data_dependent`, `efra`).
 /// forgetting_factor : float
 ///     The forgetting factor used, in (0, 1].
 /// rank : int
@@ -43,6 +47,11 @@ impl Update {
     #[getter]
     fn leverage(&self) -> f64 {
         self.0.leverage
+    }
+
+    #[getter]
+    fn weight(&self) -> f64 {
+        self.0.weight
     }
 
     #[getter]

@@ -53,6 +53,8 @@ pub struct Update {
     pub whitened_innovation: Innovation,
     /// tr φ̄P̄φ̄ᵀ: the variance of the prediction in units of the noise variance
     pub leverage: f64,
+    /// Γ was divided by this, by the weighting and by the rule
+    pub weight: f64,
     /// the forgetting factor used, in (0, 1]
     pub forgetting_factor: f64,
     /// number of directions that lost information
@@ -82,6 +84,7 @@ impl Update {
             error: Innovation::new(update.error, targets),
             whitened_innovation,
             leverage: update.leverage.to_f64(),
+            weight: update.weight.to_f64(),
             forgetting_factor: update.forgetting_factor.to_f64(),
             rank: update.rank,
             skipped: update.skipped,

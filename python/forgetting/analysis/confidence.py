@@ -213,7 +213,10 @@ def _innovation(trajectory: Trajectory, covariance: Array) -> Array:
     """Diagonal of Γ + φ P φᵀ for each sample, (T, rows)."""
     root = np.linalg.cholesky(trajectory.weight)
     phi = root @ trajectory.phibar
+    # the noise is that of Γ as given, however far the sample was trusted
     gamma = np.diagonal(trajectory.weight, axis1=1, axis2=2)
+    if trajectory.trust is not None:
+        gamma = gamma * trajectory.trust[:, np.newaxis]
     added = np.einsum("tpi,tij,tpj->tp", phi, covariance, phi)
     return np.asarray(gamma + added, dtype=np.float64)
 
@@ -241,6 +244,8 @@ def _fixed_covariance(trajectory: Trajectory) -> Array:
     gains = np.einsum("tij,tpj->tip", trajectory.after, trajectory.phibar)
     moves = np.eye(trajectory.parameters) - gains @ trajectory.phibar
     fresh = gains @ np.swapaxes(gains, 1, 2)
+    if trajectory.trust is not None:
+        fresh = fresh * trajectory.trust[:, np.newaxis, np.newaxis]
     for k, (move, noise) in enumerate(zip(moves, fresh, strict=True)):
         path[k + 1] = move @ path[k] @ move.T + noise
     return path

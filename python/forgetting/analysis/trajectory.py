@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .information import weighted, weighting
 from .reconstruction import prior_covariance as recomputed
-from .validation import Array, positive_matrix, present, refuse, stack
+from .validation import Array, numbers, positive_matrix, present, refuse, stack
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -20,7 +20,7 @@ class Trajectory:
     Attributes
     ----------
     phibar : (T, rows, n)
-        Weighted regressors Γ^{-1/2} φ; zeros where the sample was skipped.
+        Weighted regressors Γ^{-1/2} φ, Γ as it was used; zeros where the sample was skipped.
     before, prior, after : (T, n, n)
         P_k before the sample, P̄_k after forgetting, P_{k+1} after the measurement.
     first : int
@@ -31,9 +31,11 @@ class Trajectory:
         Where P̄ was not recorded but recomputed from P_{k+1} and φ: whether rounding left it
         any digit. P_k stands in for it where not.
     weight : (T, rows, rows) or (1, rows, rows)
-        Γ_k, one matrix when constant.
+        Γ_k as it was used, one matrix when constant.
     forgetting_factor : (T,) or None
         λ_k as the rule used it.
+    trust : (T,) or None
+        By what weighting and rule divided the Γ given, to get the Γ used; None for 1.
     """
 
     phibar: Array
@@ -45,6 +47,7 @@ class Trajectory:
     precision: float = float(np.finfo(np.float64).eps)
     resolved: NDArray[np.bool_] | None = None
     forgetting_factor: Array | None = None
+    trust: Array | None = None
 
     @property
     def samples(self) -> int:
@@ -121,7 +124,8 @@ class Trajectory:
         ----------
         run : Run
             Made with ``outputs=(..., "covariance")``; "prior_covariance" spares a
-            reconstruction, "skipped" and "forgetting_factor" are used when present.
+            reconstruction, "skipped" and "forgetting_factor" are used when present. "weight" is
+            needed where a weighting or a rule measured with another Γ than was given.
         regressors : (T, n) or (T, rows, n)
             The regressors given to the run.
         gamma : optional
@@ -132,6 +136,8 @@ class Trajectory:
         phibar = weighted(regressors, gamma)
         phibar = _without_skipped(phibar, getattr(run, "skipped", None))
         samples, _, n = phibar.shape
+        trust = _trust(run, samples)
+        phibar = phibar * np.sqrt(trust)[:, np.newaxis, np.newaxis]
         raw = np.asarray(present(run, "covariance"))
         after = stack("run.covariance", raw, samples, n)
         recorded = getattr(run, "prior_covariance", None)
@@ -143,6 +149,8 @@ class Trajectory:
         prior, resolved = _prior(phibar, path, recorded, None, precision)
         rate = getattr(run, "forgetting_factor", None)
         weight = weighting(gamma, samples, phibar.shape[1])
+        if (trust != 1.0).any():
+            weight = weight / trust[:, np.newaxis, np.newaxis]
         return cls(
             phibar[first:],
             path[first:-1],
@@ -153,6 +161,7 @@ class Trajectory:
             precision,
             None if resolved is None else resolved[first:],
             None if rate is None else np.asarray(rate, dtype=np.float64)[first:],
+            trust[first:],
         )
 
 
@@ -170,6 +179,18 @@ def trajectory_of(
     if regressors is None:
         raise refuse("regressors", None, "the regressors given to the run")
     return Trajectory.from_run(run, regressors, gamma=gamma, initial_covariance=initial_covariance)
+
+
+def _trust(run: Any, samples: int) -> Array:
+    """By what Γ of each sample was divided before it was measured."""
+    if getattr(run, "weight", None) is None:
+        if getattr(run, "reweighted", False):
+            present(run, "weight")
+        return np.ones(samples)
+    trust = numbers("run.weight", run.weight)
+    if trust.shape != (samples,):
+        raise refuse("run.weight", trust.shape, f"shape {(samples,)}")
+    return trust
 
 
 def _without_skipped(phibar: Array, skipped: Any) -> Array:

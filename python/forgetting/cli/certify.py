@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 DIFFUSE = 1e5
 """P before the first sample when none is given, as in `forgetting.RLS`."""
-OUTPUTS = ["error", "forgetting_factor", "skipped", "covariance", "prior_covariance"]
+OUTPUTS = ["error", "forgetting_factor", "skipped", "covariance", "prior_covariance", "weight"]
 
 
 def certify(

@@ -13,8 +13,7 @@ Array = NDArray[np.float64]
 def channels(name: str, values: ArrayLike) -> Array:
     """Return (T,) or (T, c) as (T, c) float64; NaN and a mask mean missing, Inf is refused."""
     if isinstance(values, np.ma.MaskedArray):
-        array = numbers(name, values.data)
-        array = np.where(np.ma.getmaskarray(values), np.nan, array)
+        array = np.ma.masked_array(numbers(name, values.data), values.mask).filled(np.nan)
     else:
         array = numbers(name, values)
     if array.ndim == 1:

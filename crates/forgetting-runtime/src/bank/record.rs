@@ -190,7 +190,7 @@ impl<T: Number> Outputs<T> {
         let outputs = outputs.into_iter().filter_map(|(name, elements, shape)| {
             elements.map(|elements| (name, Array { shape, elements }))
         });
-        Run { outputs: outputs.collect(), samples, used: self.used }
+        Run { outputs: outputs.collect(), samples, used: self.used, reweighted: false }
     }
 }
 

@@ -61,6 +61,7 @@ where
         };
         Report {
             leverage: outcome.leverage,
+            weight: M::Real::ONE,
             forgetting_factor: forgotten.forgetting_factor.map_or(lambda, M::Real::from_f64),
             rank: forgotten.rank,
             skipped: (!outcome.used).then_some(Skip::DeadZone),

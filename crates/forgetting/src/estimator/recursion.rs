@@ -38,6 +38,7 @@ pub(super) struct Buffers<M: Memory> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Report<T> {
     pub leverage: T,
+    pub weight: T,
     pub forgetting_factor: T,
     pub rank: usize,
     pub skipped: Option<Skip>,
@@ -136,7 +137,7 @@ impl<T: Real> Report<T> {
     /// The update of these errors.
     #[inline]
     pub fn with<'a>(self, error: &'a [T], whitened: Whitened<'a, T>) -> Update<'a, T> {
-        let Self { leverage, forgetting_factor, rank, skipped, gate, windup, .. } = self;
-        Update { error, leverage, forgetting_factor, rank, skipped, gate, windup, whitened }
+        let Self { leverage, weight, forgetting_factor, rank, skipped, gate, windup, .. } = self;
+        Update { error, leverage, weight, forgetting_factor, rank, skipped, gate, windup, whitened }
     }
 }

@@ -139,6 +139,12 @@ impl<T: Real> Statistics<T> {
         Ok(())
     }
 
+    /// The weight of the sample.
+    #[inline]
+    pub fn weight(&self) -> T {
+        self.weight
+    }
+
     /// ‖ē‖² over rows and targets of the sample as it is used, weighted by √w.
     #[inline]
     pub fn weighted_squared_error(&self) -> T {

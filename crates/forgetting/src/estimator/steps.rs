@@ -60,6 +60,9 @@ where
             design.rate.learn(&mut state.rate, &evidence, lambda);
             state.samples += 1;
         }
+        // what the rule made of the sample is told apart
+        let noise = sample.scaled() * sample.scaled();
+        let leverage = if noise == M::Real::ONE { leverage } else { leverage / noise };
         if let Some(monitor) = &mut state.monitor {
             let observation = Observation {
                 rows: sample.rows(),
@@ -71,9 +74,9 @@ where
             };
             monitor.watch_one(&state.factor, skipped.is_none().then_some(observation));
         }
-        let noise = sample.scaled() * sample.scaled();
         Ok(Report {
             leverage,
+            weight: statistics.weight() * noise,
             forgetting_factor: forgetting_factor.map_or(lambda, M::Real::from_f64),
             rank,
             skipped,

@@ -20,8 +20,8 @@
 //!
 //! - Uses this sample: both windows include it. Until τ_d samples were seen, and while Σ_d of the
 //!   samples before this one is singular (d > 1; d = 1: while Σ_d = 0), λ = largest.
-//! - α is the probability of a false alarm at each sample, about: the windows overlap, and the
-//!   trace follows an F law only nearly. For d = 1 it is a = τ_n, b = τ_d, c = τ_n/τ_d, and
+//! - α is more than the probability of a false alarm at each sample, which is α/4 to α/2: the law
+//!   is that of windows apart, but the long one holds the short one, whose errors raise both. For d = 1 it is a = τ_n, b = τ_d, c = τ_n/τ_d, and
 //!   g = √(ratio of the mean squares) − √(quantile).
 //! - Only a ratio of errors counts: λ depends neither on the units of y nor on the noise
 //!   covariance. e is whitened by Γ and clipped by the weighting.
@@ -51,7 +51,7 @@ const SIGNIFICANCE: Parameter = Parameter::real(
     "significance",
     0.01,
     Range::INNER_FRACTION,
-    "probability of forgetting although nothing has changed",
+    "bound of the probability, at a sample, of forgetting although nothing has changed",
 );
 const LARGEST: Parameter = largest(1.0, Range::FRACTION);
 

@@ -9,8 +9,12 @@ use forgetting_kernels::Real;
 pub struct Update<'a, T> {
     /// y − φθ with the θ of before: p x m numbers, row by row, in units of y
     pub error: &'a [T],
-    /// tr φ̄P̄φ̄ᵀ: the variance of the prediction in units of the noise's
+    /// tr φ̄P̄φ̄ᵀ, φ̄ whitened by Γ over the weight of the weighting: the variance of the prediction in
+    /// units of the noise's
     pub leverage: T,
+    /// Γ was divided by this: by the weight of the weighting, and by what the rule made of the
+    /// sample
+    pub weight: T,
     /// the λ used; 1 if the gate froze or held the sample
     pub forgetting_factor: T,
     /// the number of directions that lost information
@@ -52,7 +56,7 @@ impl<T: Real> Update<'_, T> {
         Error::check_length("whitened", whitened.len(), self.error.len())?;
         match self.whitened {
             Whitened::Row { errors, noise } => {
-                let deviation = (noise + self.leverage).sqrt();
+                let deviation = (noise + noise * self.leverage).sqrt();
                 for (whitened, &error) in whitened.iter_mut().zip(errors) {
                     *whitened = error / deviation;
                 }

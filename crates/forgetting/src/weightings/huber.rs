@@ -17,8 +17,9 @@
 //!   is still corrected at once, for then P̄ is large.
 //! - Rates see the clipped error w ē, so that an outlier makes none of them forget more than an
 //!   error of c.
-//! - c is in standard deviations of the noise, if Γ is its covariance: with 1.345 the estimate of a
-//!   constant has 95 % of the efficiency of least squares in Gaussian noise.
+//! - c is in standard deviations of the noise, if Γ is its covariance. With 1.345 the estimate of a
+//!   constant that solves Σ w ē = 0 has 95 % of the efficiency of least squares in Gaussian noise;
+//!   the recursion, of which the gain is 1/Σ w, has 92.3 %.
 //! - Cost: O(p m). State: none.
 //! - Use it when some samples are gross errors. One in φ is not recognized.
 //!

@@ -33,6 +33,29 @@ fn with_factor_one_every_rule_is_none() {
     factor_one_is_none::<f32>((3, 1, 1));
 }
 
+/// One that rotates the rows before it measures them is `none` to rounding.
+#[test]
+fn with_factor_one_and_several_rows_every_rule_is_none() {
+    let sizes = (4, 3, 2);
+    let data: Vec<Datum<f64>> = record(sizes, 600).into_iter().take(100).collect();
+    let none = rules().find(|subject| subject.about.name == "none").unwrap();
+    for subject in rules().filter(|subject| subject.about.forgetting_factor) {
+        let Some(mut one) = subject.estimator::<f64>(sizes, 1.0, 100.0) else { continue };
+        let mut other = none.estimator::<f64>(sizes, 1.0, 100.0).unwrap();
+        for Datum { phi, y, gamma } in &data {
+            update(&mut one, phi, y, Noise::Full(gamma)).unwrap();
+            update(&mut other, phi, y, Noise::Full(gamma)).unwrap();
+            if subject.about.name != "subspace" {
+                assert_eq!(numbers(&one), numbers(&other), "{subject:?}");
+                continue;
+            }
+            for (x, y) in one.theta().iter().zip(other.theta()) {
+                assert!((x - y).abs() < 1e-11, "{subject:?}: {x} {y}");
+            }
+        }
+    }
+}
+
 fn silence_is_harmless<T: Kernels>(sizes: (usize, usize, usize)) {
     let (n, p, m) = sizes;
     let data: Vec<Datum<T>> = record(sizes, 300);

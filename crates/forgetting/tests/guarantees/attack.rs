@@ -74,7 +74,7 @@ fn regressor(kind: usize, k: usize, n: usize, noise: &mut Noise) -> Vec<f64> {
         0 => phi = (0..n).map(|i| 1.0 + i as f64).collect(),
         1 => phi = (0..n).map(|i| f64::from(u8::from(i == k % n))).collect(),
         2 if k > SAMPLES / 3 => phi.fill(0.0),
-        3 if k % 7 > 0 => phi.fill(0.0),
+        3 if !k.is_multiple_of(7) => phi.fill(0.0),
         4 if k > 5 => phi = (0..n).map(|i| f64::from(u8::from(i == 0))).collect(),
         5 => phi.iter_mut().skip(1).for_each(|x| *x *= 1e-3),
         _ => {}

@@ -21,7 +21,9 @@ pub(super) struct Outputs<T> {
     variance: Option<Vec<T>>,
     covariance: Option<Vec<T>>,
     prior_covariance: Option<Vec<T>>,
+    weight: Option<Vec<T>>,
     used: usize,
+    reweighted: bool,
 }
 
 impl<T: Number> Outputs<T> {
@@ -47,7 +49,9 @@ impl<T: Number> Outputs<T> {
             variance: room(names, "variance", &[samples, n])?,
             covariance: room(names, "covariance", &[samples, n, n])?,
             prior_covariance: room(names, "prior_covariance", &[samples, n, n])?,
+            weight: room(names, "weight", &[samples])?,
             used: 0,
+            reweighted: false,
         })
     }
 
@@ -84,6 +88,8 @@ impl<T: Number> Outputs<T> {
     #[inline(always)]
     fn note_rest(&mut self, update: &Update<'_, T>) {
         push(&mut self.forgetting_factor, update.forgetting_factor);
+        push(&mut self.weight, update.weight);
+        self.reweighted |= update.weight != T::ONE;
         push(&mut self.rank, update.rank as i64);
         push(&mut self.skipped, update.skipped.map_or(0, Skip::code));
         push(&mut self.gate, update.gate.code());
@@ -105,6 +111,7 @@ impl<T: Number> Outputs<T> {
         }
         push(&mut self.leverage, nothing);
         push(&mut self.forgetting_factor, T::ONE);
+        push(&mut self.weight, T::ONE);
         push(&mut self.rank, 0);
         push(&mut self.skipped, Skip::Missing.code());
         push(&mut self.gate, Answer::Update.code());
@@ -174,6 +181,7 @@ impl<T: Number> Outputs<T> {
             ("error", numbers(self.error), per_row.clone()),
             ("leverage", numbers(self.leverage), each.clone()),
             ("forgetting_factor", numbers(self.forgetting_factor), each.clone()),
+            ("weight", numbers(self.weight), each.clone()),
             ("rank", self.rank.map(Elements::I64), each.clone()),
             ("skipped", self.skipped.map(Elements::U8), each.clone()),
             ("gate", self.gate.map(Elements::U8), each.clone()),
@@ -186,7 +194,8 @@ impl<T: Number> Outputs<T> {
         let outputs = outputs.into_iter().filter_map(|(name, elements, shape)| {
             elements.map(|elements| (name, Array { shape, elements }))
         });
-        Run { outputs: outputs.collect(), samples, used: self.used }
+        let reweighted = self.reweighted;
+        Run { outputs: outputs.collect(), samples, used: self.used, reweighted }
     }
 }
 

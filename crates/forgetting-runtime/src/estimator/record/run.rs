@@ -19,6 +19,7 @@ use forgetting::{Answer, Skip, Update};
 /// | `whitened_innovation` | (T, p) or (T, p, m) | L⁻¹(y − φθ), see [`Update::whiten`] |
 /// | `variance` | (T, n) | diagonal of P after each sample |
 /// | `covariance` | (T, n, n) | P after each sample |
+/// | `weight` | (T,) | Γ was divided by this, by the weighting and by the rule |
 /// | `prior_covariance` | (T, n, n) | P after forgetting and before the data of each sample |
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
@@ -28,6 +29,8 @@ pub struct Run {
     pub samples: usize,
     /// number of samples used
     pub used: usize,
+    /// whether a sample was measured with another Γ than it was given
+    pub reweighted: bool,
 }
 
 impl Run {
@@ -36,7 +39,7 @@ impl Run {
         ["theta", "error", "leverage", "forgetting_factor", "rank", "skipped"];
 
     /// Names of all outputs.
-    pub const OUTPUTS: [&'static str; 12] = [
+    pub const OUTPUTS: [&'static str; 13] = [
         "theta",
         "error",
         "leverage",
@@ -49,6 +52,7 @@ impl Run {
         "variance",
         "covariance",
         "prior_covariance",
+        "weight",
     ];
 
     /// Takes out the output of this name, if it was asked for.
