@@ -60,3 +60,39 @@ def test_many_parameters_to_rounding(rule, dtype):
             size = abs(covariance[i]).max()
             gap = abs(fleet.covariance(i) - covariance[i]).max()
             assert gap < ROUNDING[dtype] * size
+
+
+FOLLOWING = """
+import hashlib
+import numpy as np
+from company import assert_follows, samples
+import forgetting as fg
+hashed = hashlib.sha256()
+for dtype in ("float64", "float32"):
+    for n in range(1, 11):
+        for rule in (fg.RandomWalk(1e-3, bound=1e4), fg.RandomWalk(1e-9), fg.Exponential(0.95)):
+            fleet = fg.Fleet(19, n, rule=rule, dtype=dtype)
+            singles = [fleet[i] for i in range(19)]
+            assert_follows(fleet, singles, samples(60, 19, n, dtype, seed=n))
+            hashed.update(fleet[3].to_bytes())
+        random = np.random.default_rng(n)
+        phi, y = random.normal(size=(100, n)).astype(dtype), random.normal(size=100).astype(dtype)
+        bank = fg.Bank(n, dtype=dtype)
+        run = bank.run(phi, y)
+        hashed.update(run.theta.tobytes() + run.error.tobytes() + bank.to_bytes())
+print(hashed.hexdigest())
+"""
+
+
+def test_bits_of_what_follows_the_data():
+    def done(level):
+        return subprocess.run(
+            [sys.executable, "-c", FOLLOWING], cwd=HERE, capture_output=True, text=True,
+            check=False, env={**os.environ, "FORGETTING_CPU": level},
+        )  # fmt: skip
+
+    levels = {level: done(level) for level in ("baseline", "avx2", "avx512")}
+    for level, program in levels.items():
+        assert len(program.stdout) == 65, (level, program.stderr)
+    # without fused multiply-add the bits are others
+    assert levels["avx2"].stdout == levels["avx512"].stdout

@@ -15,7 +15,8 @@
 
 use crate::memory::state::{State, Visitor, MOST_SAMPLES};
 use crate::memory::Memory;
-use forgetting_kernels::Real;
+use forgetting_kernels::kernel::units::{ScaleRows, SumSquares};
+use forgetting_kernels::{Kernels, Real};
 
 /// s, and what it is made from.
 #[derive(Clone, Debug)]
@@ -57,7 +58,8 @@ impl<M: Memory> Units<M> {
     /// in which a regressor without a unit is other than 0, and before the next renewal.
     pub fn room(&self, phi: &[M::Real], most: usize) -> usize {
         let n = self.memory.parameters();
-        let left = (self.next_renewal() - self.samples).min(most as u64) as usize;
+        let next = next_renewal(n as u64, self.samples);
+        let left = (next - self.samples).min(most as u64) as usize;
         if (0..n).all(|i| self.has_unit(i)) {
             return left;
         }
@@ -99,52 +101,27 @@ impl<M: Memory> Units<M> {
     /// x for any number of rows φ.
     #[inline]
     pub fn measure(&self, phi: &[M::Real], measured: &mut [M::Real]) {
-        let n = self.memory.parameters();
-        let reciprocals = &self.reciprocals.as_ref()[..n];
-        for (row, measured) in phi.chunks_exact(n).zip(measured.chunks_exact_mut(n)) {
-            for ((x, &phi), &reciprocal) in measured.iter_mut().zip(row).zip(reciprocals) {
-                *x = phi * reciprocal;
-            }
-        }
+        measured.copy_from_slice(phi);
+        self.express(measured);
     }
 
-    /// Multiplies numbers in units of 1/x, n after n, by 1/s: θ as the recursion has it to θ.
+    /// Multiplies numbers, n after n, by 1/s: φ to x, or θ as the recursion has it to θ.
     #[inline]
-    pub fn express(&self, thetas: &mut [M::Real]) {
-        let n = self.memory.parameters();
-        for theta in thetas.chunks_exact_mut(n) {
-            for (theta, &reciprocal) in theta.iter_mut().zip(self.reciprocals.as_ref()) {
-                *theta *= reciprocal;
-            }
-        }
+    pub fn express(&self, rows: &mut [M::Real]) {
+        M::Real::scale_rows(ScaleRows { rows, factors: self.reciprocals.as_ref() });
     }
 
     /// Takes note of the rows of `samples` samples as they were measured.
     #[inline]
     pub fn learn(&mut self, measured: &[M::Real], samples: u64) {
-        let n = self.memory.parameters();
         let (squares, counts) = (self.squares.as_mut(), self.counts.as_mut());
-        for row in measured.chunks_exact(n) {
-            for ((&x, square), count) in row.iter().zip(&mut *squares).zip(&mut *counts) {
-                *square += x * x;
-                let other = if x == M::Real::ZERO { M::Real::ZERO } else { M::Real::ONE };
-                *count += other;
-            }
-        }
+        M::Real::sum_squares(SumSquares { rows: measured, squares, counts });
         self.samples += samples;
-    }
-
-    /// The number of samples after which units are next renewed.
-    fn next_renewal(&self) -> u64 {
-        let first = 2 * self.memory.parameters() as u64;
-        let cycles = self.samples / first;
-        first.saturating_mul((cycles + 1).next_power_of_two())
     }
 
     /// The s₊/s of a renewal, if one is due after the last sample.
     pub fn due(&mut self) -> Option<&[M::Real]> {
-        let first = 2 * self.memory.parameters() as u64;
-        if !self.samples.is_multiple_of(first) || !(self.samples / first).is_power_of_two() {
+        if !is_renewal(self.memory.parameters() as u64, self.samples) {
             return None;
         }
         let (squares, counts) = (self.squares.as_ref(), self.counts.as_ref());
@@ -171,6 +148,16 @@ impl<M: Memory> Units<M> {
             reciprocals[i] /= ratio;
         }
     }
+}
+
+/// The number of samples after which units of n regressors are next renewed.
+pub(crate) fn next_renewal(n: u64, samples: u64) -> u64 {
+    (2 * n).saturating_mul((samples / (2 * n) + 1).next_power_of_two())
+}
+
+/// Whether they are renewed after so many.
+pub(crate) fn is_renewal(n: u64, samples: u64) -> bool {
+    samples.is_multiple_of(2 * n) && (samples / (2 * n)).is_power_of_two()
 }
 
 impl<M: Memory> State<M::Real> for Units<M> {

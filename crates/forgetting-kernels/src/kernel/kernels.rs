@@ -3,11 +3,13 @@
 use super::agee_turner::AgeeTurner;
 use super::eigen::RankOneUpdate;
 use super::lanes::streams::{Outputs, Samples, Streams};
+use super::lanes::together::{MixThetas, Together};
 use super::lanes::Predict;
 use super::measure::Measure;
 use super::measured::Measured;
 use super::runs::Steps;
 use super::triangle::{Leverage, Multiply, MultiplyTransposed, Solve};
+use super::units::{ScaleRows, SumSquares};
 use super::variances::Variances;
 use super::vectors::{AddScaled, Arrive, Dot};
 use super::watch::{Observation, Observations, Watch};
@@ -44,6 +46,14 @@ pub trait Kernels: Real {
         samples: Samples<'_, Self>,
         outputs: &mut Outputs<'_, Self>,
     ) -> usize;
+    /// Lets several estimators take the same samples; returns how many samples.
+    fn advance_together(task: Together<'_, Self>) -> usize;
+    /// θ of the mixture of several estimators.
+    fn mix_thetas(task: MixThetas<'_, Self>);
+    /// Each row times the same numbers, one for each column.
+    fn scale_rows(task: ScaleRows<'_, Self>);
+    /// The squares of each column, and how many numbers are not 0.
+    fn sum_squares(task: SumSquares<'_, Self>);
     /// φθ of each stream.
     fn predict_streams(task: Predict<'_, Self>);
     /// Shows a run of samples of one row to the monitor; returns how many of them left P wound up.
@@ -66,11 +76,13 @@ macro_rules! compile_kernels {
             use $crate::kernel::agee_turner::AgeeTurner;
             use $crate::kernel::eigen::RankOneUpdate;
             use $crate::kernel::lanes::streams::{Outputs, Samples, Streams};
+            use $crate::kernel::lanes::together::{MixThetas, Together};
             use $crate::kernel::lanes::{Advance, Predict};
             use $crate::kernel::measure::Measure;
             use $crate::kernel::measured::Measured;
             use $crate::kernel::runs::{self, Steps};
             use $crate::kernel::triangle::{Leverage, Multiply, MultiplyTransposed, Solve};
+            use $crate::kernel::units::{ScaleRows, SumSquares};
             use $crate::kernel::variances::Variances;
             use $crate::kernel::vectors::{AddScaled, Arrive, Dot};
             use $crate::kernel::watch::{Observation, Observations, Watch};
@@ -116,6 +128,18 @@ macro_rules! compile_kernels {
                     outputs: &mut Outputs<'_, Self>,
                 ) -> usize {
                     <$Dispatch>::run(Advance { streams, samples, outputs })
+                }
+                fn advance_together(task: Together<'_, Self>) -> usize {
+                    <$Dispatch>::run(task)
+                }
+                fn mix_thetas(task: MixThetas<'_, Self>) {
+                    <$Dispatch>::run(task)
+                }
+                fn scale_rows(task: ScaleRows<'_, Self>) {
+                    <$Dispatch>::run(task)
+                }
+                fn sum_squares(task: SumSquares<'_, Self>) {
+                    <$Dispatch>::run(task)
                 }
                 fn predict_streams(task: Predict<'_, Self>) {
                     <$Dispatch>::run(task)

@@ -11,7 +11,7 @@ use crate::kernel::dispatch::Kernel;
 use crate::kernel::form::{shrink, Form};
 use crate::kernel::measured::Measured;
 use crate::number::lane::One;
-use crate::number::vector::Vector;
+use crate::number::vector::{StreamVector, Vector};
 use crate::number::Real;
 
 /// The factor and what goes with it.
@@ -57,7 +57,7 @@ impl<T: Real> Kernel<T> for Measure<'_, T> {
         let Self { ref mut place, form, f, squares, .. } = self;
         // wide vectors are for many: without this they would be compiled for few, too
         let measured = if GROUP < 8 && n <= FEW {
-            with_few!(n, few::<T>(place, form, f, squares))?
+            few::<T, V>(place, form, f, squares)?
         } else {
             many::<T, V, GROUP>(place, form, f, squares)?
         };
@@ -78,7 +78,17 @@ fn make_room<T: Real>(bound: &mut T, growth: T, added: T) -> Option<()> {
 
 /// For at most ten parameters.
 #[inline(always)]
-fn few<T: Real, const N: usize>(
+fn few<T: Real, V: Vector<T>>(
+    place: &mut Place<'_, T>,
+    form: Form<T>,
+    f: &[T],
+    squares: T,
+) -> Option<Measured<T>> {
+    with_few!(f.len(), of::<T, V>(place, form, f, squares))
+}
+
+#[inline(always)]
+fn of<T: Real, V: Vector<T>, const N: usize>(
     Place { columns, diagonal, scratch, bound }: &mut Place<'_, T>,
     form: Form<T>,
     f: &[T],
@@ -95,7 +105,14 @@ fn few<T: Real, const N: usize>(
             along::<T, T, _, N, true>(&mut small, bounds, weight, (f, squares), least)?
         }
         Form::Walk { noise, per_bound } => {
-            walk::<T, T, _, N, true>(&mut small, bounds, (noise, per_bound), (f, squares), least)?
+            let noise = (noise, per_bound);
+            walk::<T, T, V::StreamVector, _, N, true>(
+                &mut small,
+                bounds,
+                noise,
+                (f, squares),
+                least,
+            )?
         }
     };
     *d = small.d;
@@ -150,17 +167,23 @@ pub fn along<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const NEAR: bool
 
 /// The same with the same variance added to every parameter.
 #[inline(always)]
-pub fn walk<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const NEAR: bool>(
+pub fn walk<T, A, L, U, const N: usize, const NEAR: bool>(
     small: &mut Small<A, N, U>,
     bounds: &mut Bounds<'_, T>,
     (noise, per_bound): (T, T),
     (f, squares): (&[A; N], T),
     least: T,
-) -> Option<(Gain<A, N>, bool)> {
+) -> Option<(Gain<A, N>, bool)>
+where
+    T: Real,
+    A: One<T>,
+    L: StreamVector<T>,
+    U: Unit<A, N>,
+{
     let shrink = shrink::<T, T>(noise, per_bound);
     let added = noise * T::from_f64(N as f64);
     bounds.grow::<NEAR>((shrink, added), (least * shrink, squares))?;
-    small.walk(A::splat(shrink), A::splat(noise));
+    small.walk_by_columns::<T, L>(shrink, noise);
     let gain = small.scale_and_measure::<T, NEAR>(A::splat(T::ONE), f);
     Some((gain, noise > T::ZERO))
 }

@@ -58,6 +58,7 @@ mod scratch;
 mod tiles;
 mod together;
 pub mod triangle;
+pub mod units;
 pub mod variances;
 pub mod vectors;
 pub mod watch;

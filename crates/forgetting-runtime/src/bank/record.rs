@@ -2,10 +2,10 @@
 
 use super::by_parameter;
 use crate::error::Error;
-use crate::estimator::record::{GoOn, Missing, Pause, RecordNoise, Run, Sizes};
+use crate::estimator::record::{GoOn, Missing, Pause, Record, RecordNoise, Run, Sizes};
 use crate::number::{Array, Elements, Number, View};
-use forgetting::bank::{Bank, BankUpdate};
-use forgetting::{Answer, Memory, Noise, Skip};
+use forgetting::bank::{Bank, BankOutcome, BankUpdate, Kept};
+use forgetting::{Answer, Memory, Skip};
 
 /// Names of the outputs that are kept when none are named.
 pub(super) const DEFAULT_OUTPUTS: [&str; 6] =
@@ -64,22 +64,38 @@ pub(super) fn run<T: Number>(
         (Some(gamma), Some(gammas)) => RecordNoise::read(gamma.shape(), gammas, sizes)?,
         _ => RecordNoise::Unit,
     };
-    let Sizes { samples, parameters: n, rows: p, targets: m } = sizes;
-    let mut pause = Pause::new(go_on, count * p, n);
-    let taken = bank.all_or_nothing(|bank| {
-        for k in 0..samples {
-            let phi = &phi[k * p * n..(k + 1) * p * n];
-            let y = &y[k * p * m..(k + 1) * p * m];
-            let is_missing = |values: &[T]| values.iter().any(|x| x.to_f64().is_nan());
-            let missing = missing == Missing::Skip && (is_missing(phi) || is_missing(y));
-            let sample = (!missing).then_some((phi, y, noise.at(k, p)));
-            outputs.take(bank, sample, p * m).map_err(|error| (k, error))?;
-            pause.after(1).map_err(|error| (k, error))?;
-        }
-        Ok(())
-    });
+    let record = Record { sizes, phi: &phi, y: &y, noise, missing };
+    let mut pause = Pause::new(go_on, count * sizes.rows, sizes.parameters);
+    let taken = bank.all_or_nothing(|bank| take(bank, &record, &mut outputs, &mut pause));
     taken.map_err(|(sample, error)| Error::Sample { sample, error })?;
     Ok(outputs.finish(sizes, count))
+}
+
+/// The most samples that a bank takes together.
+const MOST: usize = 64;
+
+fn take<T: Number>(
+    bank: &mut Bank<T>,
+    record: &Record<'_, T>,
+    outputs: &mut Outputs<T>,
+    pause: &mut Pause<'_>,
+) -> Result<(), (usize, forgetting::Error)> {
+    let together = matches!(record.noise, RecordNoise::Unit) && !outputs.need_covariance();
+    let (n, samples) = (record.sizes.parameters, record.sizes.samples);
+    let mut outcomes = [BankOutcome::default(); MOST];
+    let mut k = 0;
+    while k < samples {
+        let taken = match together {
+            true => outputs.take_many(bank, (&record.phi[k * n..], &record.y[k..]), &mut outcomes),
+            false => 0,
+        };
+        if taken == 0 {
+            outputs.take(bank, record, k).map_err(|error| (k, error))?;
+        }
+        pause.after(taken.max(1)).map_err(|error| (k, error))?;
+        k += taken.max(1);
+    }
+    Ok(())
 }
 
 impl<T: Number> Outputs<T> {
@@ -105,19 +121,75 @@ impl<T: Number> Outputs<T> {
         })
     }
 
-    /// Lets the bank take a sample, or leaves it out where there is none, and notes what came of it.
+    /// Whether P is needed after every sample.
+    fn need_covariance(&self) -> bool {
+        self.variance.is_some() || self.covariance.is_some()
+    }
+
+    /// Lets the bank take as many samples of one row as it can take together, and notes what came of
+    /// them; returns how many.
+    fn take_many(
+        &mut self,
+        bank: &mut Bank<T>,
+        (phi, y): (&[T], &[T]),
+        outcomes: &mut [BankOutcome<T>; MOST],
+    ) -> usize {
+        if (bank.memory().rows(), bank.memory().targets()) != (1, 1) {
+            return 0;
+        }
+        let (n, count) = (bank.memory().parameters(), bank.weights().len());
+        let most = MOST.min(y.len());
+        let taken = {
+            let theta = more(&mut self.theta, most * n);
+            let weights = more(&mut self.weights, most * count);
+            let memory = more(&mut self.memory, most);
+            let mut kept = Kept { theta, weights, memory };
+            bank.update_many(phi, y, &mut outcomes[..most], &mut kept)
+        };
+        less(&mut self.theta, (most - taken) * n);
+        less(&mut self.weights, (most - taken) * count);
+        less(&mut self.memory, most - taken);
+        self.note_many(&outcomes[..taken]);
+        taken
+    }
+
+    fn note_many(&mut self, outcomes: &[BankOutcome<T>]) {
+        if let Some(error) = &mut self.error {
+            error.extend(outcomes.iter().map(|outcome| outcome.error));
+        }
+        if let Some(leverage) = &mut self.leverage {
+            leverage.extend(outcomes.iter().map(|outcome| outcome.leverage));
+        }
+        if let Some(factors) = &mut self.forgetting_factor {
+            factors.extend(outcomes.iter().map(|outcome| outcome.forgetting_factor));
+        }
+        if let Some(skipped) = &mut self.skipped {
+            skipped.extend(outcomes.iter().map(|_| 0));
+        }
+        if let Some(windup) = &mut self.windup {
+            windup.extend(outcomes.iter().map(|outcome| outcome.windup));
+        }
+        self.used += outcomes.len();
+    }
+
+    /// Lets the bank take the sample at `k`, or leaves it out, and notes what came of it.
     fn take(
         &mut self,
         bank: &mut Bank<T>,
-        sample: Option<(&[T], &[T], Noise<'_, T>)>,
-        width: usize,
+        record: &Record<'_, T>,
+        k: usize,
     ) -> Result<(), forgetting::Error> {
+        let Sizes { parameters: n, rows: p, targets: m, .. } = record.sizes;
+        let phi = &record.phi[k * p * n..(k + 1) * p * n];
+        let y = &record.y[k * p * m..(k + 1) * p * m];
         if let Some(weights) = &mut self.weights {
             weights.extend_from_slice(bank.weights());
         }
-        match sample {
-            Some((phi, y, noise)) => self.note(&bank.update(phi, y, noise)?),
-            None => self.note_missing(width),
+        let is_missing = |values: &[T]| values.iter().any(|x| x.to_f64().is_nan());
+        if record.missing == Missing::Skip && (is_missing(phi) || is_missing(y)) {
+            self.note_missing(p * m);
+        } else {
+            self.note(&bank.update(phi, y, record.noise.at(k, p))?);
         }
         if let Some(theta) = &mut self.theta {
             by_parameter(bank, theta);
@@ -202,5 +274,24 @@ fn room<X>(names: &[&str], name: &str, length: usize) -> Option<Vec<X>> {
 fn push<X>(values: &mut Option<Vec<X>>, value: X) {
     if let Some(values) = values {
         values.push(value);
+    }
+}
+
+/// Room for `length` more values, if they are kept: zeros, to be written.
+fn more<T: Number>(values: &mut Option<Vec<T>>, length: usize) -> &mut [T] {
+    match values {
+        None => &mut [],
+        Some(values) => {
+            let old = values.len();
+            values.resize(old + length, T::ZERO);
+            &mut values[old..]
+        }
+    }
+}
+
+/// Without the last `length` values.
+fn less<X>(values: &mut Option<Vec<X>>, length: usize) {
+    if let Some(values) = values {
+        values.truncate(values.len() - length);
     }
 }

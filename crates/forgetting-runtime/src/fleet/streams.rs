@@ -162,7 +162,7 @@ impl<T: Number> Streams<T> {
             Self::Estimators { each, .. } => {
                 let places = variances.chunks_exact_mut(self.parameters());
                 each.iter().zip(places).for_each(|(stream, place)| {
-                    stream.factor().variances(place);
+                    stream.express(stream.factor()).variances(place);
                 });
             }
         }

@@ -1,13 +1,15 @@
 //! The weights of the members, and what they make of the members' numbers.
 
-use crate::estimator::AnyEstimator;
 use crate::memory::state::{State, Visitor, MOST_SAMPLES};
-use crate::mixers::Forecasts;
+use crate::memory::Dynamic;
+use crate::mixers::{AnyMixer, AnyMixerState, Forecasts, Mixer};
 use crate::sample::{cholesky, Noise};
 use alloc::vec::Vec;
 use forgetting_kernels::kernel::functions::add_scaled;
 use forgetting_kernels::Kernels;
 
+/// Samples a parameter before members are weighed.
+const WARM_UP: u64 = 3;
 /// Samples over which the noise variance and the members' leverages are averaged.
 const MEMORY: f64 = 1000.0;
 
@@ -55,8 +57,38 @@ impl<T: Kernels> Mixture<T> {
     }
 
     /// Σ w_i x_i over the members that are awake, with what the others would have had shared out.
+    #[inline]
     pub fn mean(&self, numbers: &[T], awake: &[bool]) -> T {
+        if all(awake) {
+            return self.mean_of_all(numbers);
+        }
         self.mean_of(&|i| numbers[i], awake)
+    }
+
+    /// Σ w_i x_i over all members.
+    #[inline]
+    pub fn mean_of_all(&self, numbers: &[T]) -> T {
+        let ((fours, rest), (fours_of, rest_of)) =
+            (self.weights.as_chunks::<4>(), numbers[..self.weights.len()].as_chunks::<4>());
+        let mut parts = [T::ZERO; 4];
+        for k in 0..fours.len().min(fours_of.len()) {
+            for j in 0..4 {
+                parts[j] += fours[k][j] * fours_of[k][j];
+            }
+        }
+        for j in 0..rest.len().min(rest_of.len()) {
+            parts[j] += rest[j] * rest_of[j];
+        }
+        total(parts)
+    }
+
+    /// The same of the first of every `width` numbers.
+    fn mean_of_every(&self, numbers: &[T], width: usize) -> T {
+        let mut parts = [T::ZERO; 4];
+        for (i, &w) in self.weights.iter().enumerate() {
+            parts[i % 4] += w * numbers[i * width];
+        }
+        total(parts)
     }
 
     /// The errors of the mixture from those of the members.
@@ -65,63 +97,97 @@ impl<T: Kernels> Mixture<T> {
         if count == 1 {
             return mixed.copy_from_slice(errors);
         }
+        let all = all(awake);
         for (j, mixed) in mixed.iter_mut().enumerate() {
-            *mixed = self.mean_of(&|i| errors[i * width + j], awake);
-        }
-    }
-
-    /// [`Mixture::mean`] of numbers that are computed.
-    fn mean_of(&self, number: &dyn Fn(usize) -> T, awake: &[bool]) -> T {
-        let believed =
-            (0..awake.len()).filter(|&i| awake[i]).fold(T::ZERO, |sum, i| sum + self.weights[i]);
-        let count = T::from_f64(awake.iter().filter(|awake| **awake).count() as f64);
-        (0..awake.len()).filter(|&i| awake[i]).fold(T::ZERO, |sum, i| {
-            let share =
-                if believed > T::ZERO { self.weights[i] / believed } else { T::ONE / count };
-            if share > T::ZERO {
-                sum + share * number(i)
+            *mixed = if all {
+                self.mean_of_every(&errors[j..], width)
             } else {
-                sum
-            }
-        })
-    }
-
-    /// θ of the mixture, m x n numbers, in the units of the members.
-    pub fn theta(&self, members: &[AnyEstimator<T>], theta: &mut [T]) {
-        if let [only] = members {
-            return theta.copy_from_slice(only.theta());
-        }
-        theta.fill(T::ZERO);
-        for (member, &weight) in members.iter().zip(&self.weights) {
-            if weight > T::ZERO {
-                add_scaled(theta, weight, member.theta());
-            }
+                self.mean_of(&|i| errors[i * width + j], awake)
+            };
         }
     }
 
-    /// Takes note of a sample that was used.
-    pub fn note(&mut self, forecasts: &Forecasts<'_, T>) {
+    /// [`Mixture::mean`] of numbers that are computed, where some members are asleep.
+    fn mean_of(&self, number: &dyn Fn(usize) -> T, awake: &[bool]) -> T {
+        let those = || (0..awake.len()).filter(|&i| awake[i]);
+        let believed = those().fold(T::ZERO, |sum, i| sum + self.weights[i]);
+        let count = T::from_f64(those().count() as f64);
+        let share = |i: usize| {
+            if believed > T::ZERO {
+                self.weights[i] / believed
+            } else {
+                T::ONE / count
+            }
+        };
+        those().filter(|&i| share(i) > T::ZERO).fold(T::ZERO, |sum, i| sum + share(i) * number(i))
+    }
+
+    /// The mixer learns from a sample, if it was used, of which the mixture had this leverage, and weighs
+    /// the members of n `parameters`.
+    #[inline]
+    pub fn learn(
+        &mut self,
+        (mixer, remembered): (&AnyMixer<Dynamic<T>>, &mut AnyMixerState<Dynamic<T>>),
+        parameters: usize,
+        used: Option<(&Forecasts<'_, T>, T)>,
+    ) {
+        if let Some((forecasts, leverage)) = used {
+            self.note(forecasts, leverage);
+            if self.samples > WARM_UP * parameters as u64 {
+                mixer.learn(remembered, forecasts);
+            }
+        }
+        self.weigh(|weights| mixer.weigh(remembered, weights));
+    }
+
+    /// Takes note of a sample that was used, `leverage` being that of the mixture.
+    #[inline]
+    fn note(&mut self, forecasts: &Forecasts<'_, T>, leverage: T) {
         self.samples += 1;
         let share = T::ONE / T::from_f64(self.samples as f64).min(T::from_f64(MEMORY));
-        let leverage = self.mean(forecasts.leverages, forecasts.awake);
-        for i in forecasts.awake() {
-            let now = forecasts.leverages[i].min(T::CEILING);
-            let mean = &mut self.leverages[i];
-            *mean += share * (now - *mean);
+        let count = self.leverages.len();
+        let (leverages, awake) = (&forecasts.leverages[..count], &forecasts.awake[..count]);
+        for i in 0..count {
+            let step = share * (leverages[i].min(T::CEILING) - self.leverages[i]);
+            self.leverages[i] += if awake[i] { step } else { T::ZERO };
         }
-        let scale = (T::ONE + leverage).sqrt();
-        let width = T::from_f64(forecasts.mixed.len() as f64);
-        let squared =
-            forecasts.mixed.iter().fold(T::ZERO, |sum, &e| sum + (e / scale) * (e / scale) / width);
-        self.noise_variance += share * (squared.min(T::CEILING) - self.noise_variance);
+        let mut squared = T::ZERO;
+        for &e in forecasts.mixed {
+            squared += e * e;
+        }
+        let variance = (T::ONE + leverage) * T::from_f64(forecasts.mixed.len() as f64);
+        self.noise_variance += share * ((squared / variance).min(T::CEILING) - self.noise_variance);
     }
 
     /// Takes the weights that `write` writes, in proportion.
-    pub fn weigh(&mut self, write: impl FnOnce(&mut [T])) {
+    #[inline]
+    fn weigh(&mut self, write: impl FnOnce(&mut [T])) {
         write(&mut self.weights);
+        let (fours, rest) = self.weights.as_chunks::<4>();
+        let mut parts = [T::ZERO; 4];
+        for four in fours {
+            for j in 0..4 {
+                parts[j] += four[j];
+            }
+        }
+        for j in 0..rest.len() {
+            parts[j] += rest[j];
+        }
+        let inverse = T::ONE / total(parts);
+        if inverse > T::ZERO && inverse.is_finite() {
+            for w in &mut self.weights {
+                *w *= inverse;
+            }
+        } else {
+            self.weigh_out_of_range();
+        }
+    }
+
+    /// In proportion where their sum or its reciprocal is no number.
+    #[cold]
+    fn weigh_out_of_range(&mut self) {
         let largest = self.weights.iter().fold(T::ZERO, |largest, &w| largest.max(w));
         if largest > T::ZERO && largest.is_finite() {
-            // first so that the sum does not overflow
             self.weights.iter_mut().for_each(|w| *w /= largest);
             let sum = self.weights.iter().fold(T::ZERO, |sum, &w| sum + w);
             self.weights.iter_mut().for_each(|w| *w /= sum);
@@ -130,6 +196,18 @@ impl<T: Kernels> Mixture<T> {
             self.weights.fill(equal);
         }
     }
+}
+
+/// Whether all members are awake.
+#[inline]
+fn all(awake: &[bool]) -> bool {
+    awake.iter().fold(true, |all, &awake| all & awake)
+}
+
+/// A sum of what was added up in four parts, so that fewer wait for each other.
+#[inline(always)]
+fn total<T: Kernels>(parts: [T; 4]) -> T {
+    (parts[0] + parts[1]) + (parts[2] + parts[3])
 }
 
 impl<T: Kernels> State<T> for Mixture<T> {

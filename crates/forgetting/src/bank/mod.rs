@@ -12,10 +12,14 @@
 //!
 //! A bank of one is that estimator, bit for bit.
 
+mod group;
+mod many;
 mod members;
 mod mixture;
 mod read;
+mod together;
 
+pub use many::{BankOutcome, Kept};
 pub use members::{default_members, DEFAULT_NOISE};
 
 use crate::error::Error;
@@ -26,10 +30,8 @@ use crate::sample::{Answer, Noise, Skip};
 use crate::units::Units;
 use alloc::vec::Vec;
 use forgetting_kernels::Kernels;
+use group::Group;
 use mixture::Mixture;
-
-/// Samples a parameter before members are weighed.
-const WARM_UP: u64 = 3;
 
 /// Estimators of the same sizes, and what mixes them.
 ///
@@ -63,7 +65,7 @@ pub struct Bank<T: Kernels> {
 /// What the next sample needs.
 #[derive(Clone, Debug)]
 struct BankState<T: Kernels> {
-    members: Vec<AnyEstimator<T>>,
+    members: Group<T>,
     mixer: AnyMixerState<Dynamic<T>>,
     mixture: Mixture<T>,
     units: Option<Units<Dynamic<T>>>,
@@ -73,6 +75,8 @@ struct BankState<T: Kernels> {
 #[derive(Clone, Debug)]
 struct Buffers<T: Kernels> {
     phi: Aligned<T>,
+    /// several samples in the units of the members
+    batch: Aligned<T>,
     /// p x m numbers a member: y − φθ, in units of y
     errors: Vec<T>,
     /// the same, whitened
@@ -139,6 +143,7 @@ impl<T: Kernels> Bank<T> {
         let zeros = |length| alloc::vec![T::ZERO; length];
         let buffers = Buffers {
             phi: memory.regressors(),
+            batch: memory.list(many::BATCH * memory.parameters()),
             errors: zeros(count * width),
             whitened: zeros(count * width),
             error: zeros(width),
@@ -152,7 +157,7 @@ impl<T: Kernels> Bank<T> {
             mixer: mixer.start(of_members),
             mixture: Mixture::new(count),
             units: follows_data.then(|| Units::new(memory)),
-            members,
+            members: Group::new(members),
         };
         let mut bank = Self { mixer, memory, follows_data, state, buffers };
         bank.reset();
@@ -162,8 +167,8 @@ impl<T: Kernels> Bank<T> {
     /// Back to the prior, as if no sample had been seen.
     pub fn reset(&mut self) {
         let Self { mixer, memory, follows_data, state, .. } = self;
-        let count = state.members.len();
-        state.members.iter_mut().for_each(AnyEstimator::reset);
+        let count = state.members.count();
+        state.members.each().iter_mut().for_each(AnyEstimator::reset);
         // as many were allowed before
         if let Ok(of_members) = Dynamic::new(count, 1, 1) {
             state.mixer = mixer.start(of_members);
@@ -197,6 +202,14 @@ impl<T: Kernels> Bank<T> {
         y: &[T],
         noise: Noise<'_, T>,
     ) -> Result<BankUpdate<'_, T>, Error> {
+        let mut outcome = [BankOutcome::default()];
+        if matches!(noise, Noise::Unit)
+            && (phi.len(), y.len()) == (self.memory.parameters(), 1)
+            && self.update_many(phi, y, &mut outcome, &mut Kept::default()) == 1
+        {
+            self.buffers.error[0] = outcome[0].error;
+            return Ok(outcome[0].report(&self.buffers.error));
+        }
         self.measure(phi)?;
         let taken = self.update_members(y, noise);
         let Taken { forgetting_factor, skipped, gate, windup, asleep } = match taken {
@@ -210,11 +223,15 @@ impl<T: Kernels> Bank<T> {
         };
         self.mix(noise);
         let leverage = self.state.mixture.mean(&self.buffers.leverages, &self.buffers.awake);
-        self.learn(skipped.is_none());
+        self.learn(skipped.is_none().then_some(leverage));
+        if let Some(units) = &mut self.state.units {
+            match skipped {
+                None => units.learn(self.buffers.phi.as_ref(), 1),
+                Some(_) => units.unchoose(|_, _| {}),
+            }
+        }
         if skipped.is_none() {
             self.follow();
-        } else if let Some(units) = &mut self.state.units {
-            units.unchoose(|_, _| {});
         }
         let error = &self.buffers.error;
         Ok(BankUpdate { error, leverage, forgetting_factor, skipped, gate, windup, asleep })
@@ -238,7 +255,8 @@ impl<T: Kernels> Bank<T> {
     fn update_members(&mut self, y: &[T], noise: Noise<'_, T>) -> Result<Taken<T>, Error> {
         let Buffers { phi, errors, leverages, awake, .. } = &mut self.buffers;
         let BankState { members, mixture, .. } = &mut self.state;
-        let width = errors.len() / members.len();
+        let members = members.each();
+        let (width, count) = (errors.len() / members.len(), members.len());
         let mut refused = None;
         let mut taken = Taken {
             forgetting_factor: T::ZERO,
@@ -273,10 +291,10 @@ impl<T: Kernels> Bank<T> {
                 }
             }
         }
-        if taken.asleep == members.len() {
+        if taken.asleep == count {
             return Err(refused.unwrap_or(Error::Memory));
         }
-        if left_out + taken.asleep < members.len() {
+        if left_out + taken.asleep < count {
             taken.skipped = None;
         }
         taken.forgetting_factor = if believed > T::ZERO {
@@ -300,31 +318,25 @@ impl<T: Kernels> Bank<T> {
         }
     }
 
-    /// The mixer learns from the sample, if it was `used`.
-    fn learn(&mut self, used: bool) {
+    /// The mixer learns from a sample that was used, of which the mixture had this leverage.
+    fn learn(&mut self, leverage: Option<T>) {
         let Self { mixer, memory, state, buffers, .. } = self;
-        let BankState { mixer: remembered, mixture, .. } = state;
-        if used {
-            let forecasts = Forecasts {
-                errors: &buffers.whitened,
-                mixed: &buffers.mixed,
-                leverages: &buffers.leverages,
-                awake: &buffers.awake,
-            };
-            mixture.note(&forecasts);
-            if mixture.samples() > WARM_UP * memory.parameters() as u64 {
-                mixer.learn(remembered, &forecasts);
-            }
-        }
-        mixture.weigh(|weights| mixer.weigh(remembered, weights));
+        let forecasts = Forecasts {
+            errors: &buffers.whitened,
+            mixed: &buffers.mixed,
+            leverages: &buffers.leverages,
+            awake: &buffers.awake,
+        };
+        let used = leverage.map(|leverage| (&forecasts, leverage));
+        state.mixture.learn((mixer, &mut state.mixer), memory.parameters(), used);
     }
 
     /// Renews the units if that is due, and takes note of θ.
     fn follow(&mut self) {
         let BankState { members, units, .. } = &mut self.state;
         if let Some(units) = units {
-            units.learn(self.buffers.phi.as_ref(), 1);
             if let Some(ratios) = units.due() {
+                let members = members.each();
                 let largest = ratios.iter().fold(T::ONE, |largest, &r| largest.max(r));
                 let fits = |member: &AnyEstimator<T>| {
                     let trace = member.factor().trace();
@@ -342,7 +354,7 @@ impl<T: Kernels> Bank<T> {
     /// θ of the mixture in the units of the user.
     fn express(&mut self) {
         let theta = self.buffers.theta.as_mut();
-        self.state.mixture.theta(&self.state.members, theta);
+        self.state.members.theta(self.state.mixture.weights(), theta);
         if let Some(units) = &self.state.units {
             units.express(theta);
         }

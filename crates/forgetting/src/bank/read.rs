@@ -1,12 +1,15 @@
 //! Reading a bank: predictions, θ, P, weights, memory, its members.
 
 use super::Bank;
+use super::Group;
+use crate::covariance::Factor;
 use crate::error::Error;
 use crate::estimator::AnyEstimator;
 use crate::memory::state::{State, Visitor};
 use crate::memory::Dynamic;
 use crate::memory::Memory;
 use crate::mixers::AnyMixer;
+use alloc::borrow::Cow;
 use alloc::vec::Vec;
 use forgetting_kernels::kernel::functions::dot;
 use forgetting_kernels::{Kernels, Real};
@@ -59,11 +62,13 @@ impl<T: Kernels> Bank<T> {
         let mut distance = alloc::vec![T::ZERO; n];
         dense.fill(T::ZERO);
         let per_target = self.noise_variance() * T::from_f64(m as f64);
-        for (i, (member, &weight)) in self.state.members.iter().zip(self.weights()).enumerate() {
+        let disagree = per_target > T::ZERO && self.state.members.count() > 1;
+        self.state.members.visit_each(|i, member| {
+            let weight = self.weights()[i];
             if !(weight > T::ZERO) {
-                continue;
+                return;
             }
-            self.member_factor(i).reconstruct(&mut own);
+            self.in_units(member.factor()).reconstruct(&mut own);
             dense.iter_mut().zip(&own).for_each(|(sum, &p)| *sum += weight * p);
             for (t, theta) in member.theta().chunks_exact(n).enumerate() {
                 distance.copy_from_slice(theta);
@@ -72,11 +77,11 @@ impl<T: Kernels> Bank<T> {
                 }
                 let mixed = &self.theta()[t * n..(t + 1) * n];
                 distance.iter_mut().zip(mixed).for_each(|(own, &mixed)| *own -= mixed);
-                if per_target > T::ZERO && self.state.members.len() > 1 {
+                if disagree {
                     add_square(dense, weight / per_target, &distance);
                 }
             }
-        }
+        });
     }
 
     /// The diagonal of P of the mixture, n numbers. O(K n²).
@@ -85,10 +90,11 @@ impl<T: Kernels> Bank<T> {
         let mut own = alloc::vec![T::ZERO; n];
         variances.fill(T::ZERO);
         let per_target = self.noise_variance() * T::from_f64(m as f64);
-        let disagree = per_target > T::ZERO && self.state.members.len() > 1;
-        for (member, &weight) in self.state.members.iter().zip(self.weights()) {
+        let disagree = per_target > T::ZERO && self.state.members.count() > 1;
+        self.state.members.visit_each(|k, member| {
+            let weight = self.weights()[k];
             if !(weight > T::ZERO) {
-                continue;
+                return;
             }
             member.factor().variances(&mut own);
             for (i, (sum, &p)) in variances.iter_mut().zip(&own).enumerate() {
@@ -99,12 +105,12 @@ impl<T: Kernels> Bank<T> {
                     *sum += weight / per_target * apart * apart;
                 }
             }
-        }
+        });
     }
 
     /// P of a member in the units of the user.
-    fn member_factor(&self, i: usize) -> crate::covariance::Factor<Dynamic<T>> {
-        let mut factor = self.state.members[i].factor().clone();
+    fn in_units(&self, factor: &Factor<Dynamic<T>>) -> Factor<Dynamic<T>> {
+        let mut factor = factor.clone();
         if let Some(units) = &self.state.units {
             factor.express(units.reciprocals());
         }
@@ -117,8 +123,8 @@ impl<T: Kernels> Bank<T> {
     }
 
     /// The members. Where the bank follows the data, θ and P of a member are in units of the bank.
-    pub fn members(&self) -> &[AnyEstimator<T>] {
-        &self.state.members
+    pub fn members(&self) -> Cow<'_, [AnyEstimator<T>]> {
+        self.state.members.read()
     }
 
     /// What mixes them.
@@ -144,7 +150,7 @@ impl<T: Kernels> Bank<T> {
     /// Whether what the bank remembers is what it can: as after every sample.
     pub fn is_sound(&self) -> bool {
         let state = &self.state;
-        state.members.iter().all(AnyEstimator::is_sound)
+        self.members().iter().all(AnyEstimator::is_sound)
             && state.mixer.is_sound()
             && state.mixture.is_sound()
             && state.units.as_ref().is_none_or(State::is_sound)
@@ -152,7 +158,7 @@ impl<T: Kernels> Bank<T> {
 
     /// Puts members of the same kind in the place of those that it has.
     pub(crate) fn put_members(&mut self, members: Vec<AnyEstimator<T>>) {
-        self.state.members = members;
+        self.state.members = Group::new(members);
         self.express();
     }
 

@@ -18,6 +18,18 @@ impl<T: Kernels> AnyEstimator<T> {
         self.recursion.design.steady.map(|steady| steady.form)
     }
 
+    /// Renews the units of the data after the last sample, for which that is due.
+    pub(crate) fn renew_units(&mut self) {
+        if let Some(measured) = &mut self.measured {
+            measured.follow(&mut self.recursion);
+        }
+    }
+
+    /// The element of D beyond which P counts as wound up, where no monitor says so.
+    pub(crate) fn windup_limit(&self) -> T {
+        self.recursion.design.windup_limit
+    }
+
     /// Goes on in other units, for which there must be room: θ ← S θ and P ← S P S with
     /// S = diag(`ratios`).
     pub(crate) fn change_units(&mut self, ratios: &[T]) {

@@ -13,7 +13,7 @@ use forgetting_kernels::kernel::outcome::Outcome;
 use forgetting_kernels::Real;
 
 /// The most samples that are measured before they are used.
-const BATCH: usize = 32;
+const BATCH: usize = 64;
 
 /// The units, and what is expressed in them.
 #[derive(Clone, Debug)]
@@ -91,12 +91,13 @@ impl<M: Memory> Measured<M> {
         if taken == 0 {
             return 0;
         }
-        let mut used = 0;
-        for (row, outcome) in measured.chunks_exact(n).zip(&outcomes[..taken]) {
-            if outcome.used {
-                units.learn(row, 1);
-                used += 1;
-            }
+        let (measured, outcomes) = (&measured[..taken * n], &outcomes[..taken]);
+        let used = outcomes.iter().filter(|outcome| outcome.used).count();
+        if used == taken {
+            units.learn(measured, taken as u64);
+        } else {
+            let samples = measured.chunks_exact(n).zip(outcomes);
+            samples.filter(|(_, outcome)| outcome.used).for_each(|(x, _)| units.learn(x, 1));
         }
         if !thetas.is_empty() {
             units.express(&mut thetas[..taken * n]);
@@ -113,7 +114,7 @@ impl<M: Memory> Measured<M> {
 
     /// Renews the units if that is due, and takes note of θ.
     #[inline]
-    fn follow<F: Forgetting<M>, R: Rate<M>, W: Weighting<M>>(
+    pub fn follow<F: Forgetting<M>, R: Rate<M>, W: Weighting<M>>(
         &mut self,
         recursion: &mut Recursion<F, R, W, M>,
     ) {

@@ -13,6 +13,8 @@ mod design;
 mod diagnostics;
 mod many;
 mod measured;
+#[cfg(feature = "alloc")]
+mod numbers;
 mod recursion;
 mod state;
 mod statistics;
@@ -32,6 +34,8 @@ use design::{Design, WINDUP};
 use forgetting_kernels::kernel::outcome::Outcome;
 use forgetting_kernels::Real;
 use measured::Measured;
+#[cfg(feature = "alloc")]
+pub(crate) use numbers::Numbers;
 use recursion::Recursion;
 
 /// Recursive least squares with the forgetting rule `F`, the rate `R` and the weighting `W`.

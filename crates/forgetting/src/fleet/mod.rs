@@ -5,22 +5,24 @@
 //! recursion is the same source. With at most ten parameters the bits are those of as many
 //! estimators; with more, sums are taken in another order.
 
+mod following;
 mod kind;
 mod part;
 mod priors;
 mod read;
+mod starts;
 mod transfer;
+mod units;
 
 pub use forgetting_kernels::kernel::lanes::streams::{Outputs, Samples, REFUSED};
 pub use kind::{check_kind, check_stream};
 pub use part::{Part, Parts};
 
-use crate::covariance::Prior;
 use crate::error::Error;
 use crate::estimator::AnyEstimator;
-use crate::estimator::Estimator;
-use crate::memory::{Dynamic, Memory};
-use crate::rates::{AnyRate, Constant, Rate};
+use crate::estimator::Numbers;
+use crate::memory::Memory;
+use crate::rates::Rate;
 use alloc::vec::Vec;
 use forgetting_kernels::kernel::form::Form;
 use forgetting_kernels::kernel::lanes::storage::{Layout, Line};
@@ -29,7 +31,9 @@ use forgetting_kernels::kernel::lanes::SCRATCH;
 use forgetting_kernels::kernel::layout::FEW;
 use forgetting_kernels::Kernels;
 use priors::Priors;
-use transfer::Numbers;
+use starts::Starts;
+use transfer::numbers_of;
+use units::Units;
 
 /// Streams of one rule that only scales P or adds to it along the regressor
 /// ([`Forgetting::form`]), each with a constant forgetting factor.
@@ -78,6 +82,8 @@ pub struct Fleet<T: Kernels> {
     /// λ of each stream; empty if all have that of a new one
     factors: Vec<T>,
     priors: Priors<T>,
+    /// if any stream follows the data
+    units: Option<Units<T>>,
     scratch: Vec<Line<T>>,
 }
 
@@ -97,7 +103,9 @@ impl<T: Kernels> Fleet<T> {
         };
         let n = fresh.prior().memory().parameters();
         let layout = Layout::new(n);
-        let start = Numbers::of(&mut fresh, layout.length())?.numbers;
+        let mut start = numbers_of(layout, &mut fresh)?.numbers;
+        start.truncate(layout.length());
+        let units = fresh.prior().is_of_data().then(|| Units::new(n));
         Ok(Self {
             priors: Priors::of(fresh.prior().clone()),
             strengths: Vec::from([Line::splat(strength(form))]),
@@ -111,6 +119,7 @@ impl<T: Kernels> Fleet<T> {
             form,
             layout,
             start,
+            units,
         })
     }
 
@@ -161,17 +170,7 @@ impl<T: Kernels> Fleet<T> {
         let scratch = if n > FEW { SCRATCH * n } else { 0 };
         let lines = scratch * self.offered.len().div_ceil(blocks);
         extend(&mut self.scratch, lines, Line::splat(T::ZERO))?;
-        let rest = Streams {
-            count: self.count,
-            n,
-            form: self.form,
-            strengths: &self.strengths,
-            lines: &mut self.lines,
-            offered: &mut self.offered,
-            unused: &mut self.unused,
-            scratch: &mut self.scratch,
-        };
-        Ok(Parts { rest, blocks, scratch })
+        Ok(self.all(blocks, scratch))
     }
 
     /// Adds `count` streams after the last.
@@ -186,6 +185,9 @@ impl<T: Kernels> Fleet<T> {
         reserve(&mut self.lines, lines)?;
         reserve(&mut self.offered, blocks)?;
         reserve(&mut self.unused, streams)?;
+        if let Some(units) = &mut self.units {
+            units.reserve(blocks, streams)?;
+        }
         self.priors.reserve(streams)?;
         if !self.factors.is_empty() {
             reserve(&mut self.factors, streams)?;
@@ -197,6 +199,12 @@ impl<T: Kernels> Fleet<T> {
         for stream in self.count..streams {
             // a new lane of the last block is offered what the others are
             self.unused.push(self.offered[stream / Line::<T>::LANES]);
+        }
+        if let Some(units) = &mut self.units {
+            units.grow(&self.offered, streams);
+            if self.fresh.prior().is_of_data() {
+                units.following += count;
+            }
         }
         let old = self.lines.len() / length;
         self.lines.resize(lines, Line::splat(T::ZERO));
@@ -217,7 +225,7 @@ impl<T: Kernels> Fleet<T> {
 
     /// λ of a stream.
     pub fn forgetting_factor(&self, stream: usize) -> T {
-        self.factors.get(stream).copied().unwrap_or(self.factor())
+        self.starts().forgetting_factor(stream)
     }
 
     /// Samples that a stream has used.
@@ -230,10 +238,14 @@ impl<T: Kernels> Fleet<T> {
     /// # Panics
     /// If there is no such stream.
     pub fn get(&self, stream: usize) -> AnyEstimator<T> {
-        let mut estimator =
-            self.like(self.forgetting_factor(stream), self.priors.get(stream).clone());
-        let mut numbers = Numbers::given(self.numbers(stream).collect(), self.samples(stream));
-        estimator.visit(&mut numbers);
+        let mut estimator = self.starts().estimator(stream);
+        let (mut numbers, mut counts) =
+            (self.numbers(stream).collect::<Vec<_>>(), Vec::from([self.samples(stream)]));
+        if let Some(units) = self.units.as_ref().filter(|_| estimator.prior().is_of_data()) {
+            numbers.extend(units.numbers(stream));
+            counts.push(units.measured(stream, &self.offered));
+        }
+        Numbers::give(numbers, counts, &mut estimator);
         estimator
     }
 
@@ -244,20 +256,17 @@ impl<T: Kernels> Fleet<T> {
         self.lines[block * length..(block + 1) * length].iter().map(move |line| line.get(lane))
     }
 
-    /// An estimator of this fleet's kind that starts at this prior.
-    fn like(&self, forgetting_factor: T, prior: Prior<Dynamic<T>>) -> AnyEstimator<T> {
-        let (rule, weighting) = (self.fresh.rule().clone(), self.fresh.weighting().clone());
-        let rate = match Constant::new(forgetting_factor) {
-            Ok(constant) => AnyRate::Constant(constant),
-            Err(_) => self.fresh.rate().clone(),
-        };
-        Estimator::new(rule, rate, weighting, prior)
+    /// What the streams start from.
+    fn starts(&self) -> Starts<'_, T> {
+        Starts { fresh: &self.fresh, factors: &self.factors, priors: &self.priors }
     }
 }
 
-/// How every sample changes P of an estimator that can be a stream.
+/// How every sample changes P of an estimator that can be a stream: one that follows the data has few
+/// parameters.
 fn form_of<T: Kernels>(estimator: &AnyEstimator<T>) -> Option<Form<T>> {
-    let plain = estimator.health().is_none() && !estimator.prior().is_of_data();
+    let few = estimator.prior().memory().parameters() <= FEW;
+    let plain = estimator.health().is_none() && (few || !estimator.prior().is_of_data());
     estimator.form().filter(|_| plain)
 }
 

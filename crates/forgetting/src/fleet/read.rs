@@ -2,6 +2,7 @@
 
 use super::{Fleet, Line};
 use crate::error::Error;
+use alloc::borrow::Cow;
 use forgetting_kernels::kernel::lanes::Predict;
 use forgetting_kernels::Kernels;
 
@@ -14,7 +15,24 @@ impl<T: Kernels> Fleet<T> {
         let n = self.parameters();
         Error::check_length("phi", phi.len(), self.count * n)?;
         Error::check_length("prediction", prediction.len(), self.count)?;
-        let (layout, lines) = (self.layout, &self.lines);
+        let layout = self.layout;
+        let lines: Cow<'_, [Line<T>]> = match &self.units {
+            None => Cow::Borrowed(&self.lines),
+            Some(units) => {
+                let mut lines = self.lines.clone();
+                for (b, block) in lines.chunks_exact_mut(layout.length()).enumerate() {
+                    for (theta, reciprocal) in
+                        block[layout.theta()..].iter_mut().zip(units.block(b))
+                    {
+                        for lane in 0..Line::<T>::LANES {
+                            theta.set(lane, theta.get(lane) * reciprocal.get(lane));
+                        }
+                    }
+                }
+                Cow::Owned(lines)
+            }
+        };
+        let lines = &lines;
         T::predict_streams(Predict { layout, lines, phi, prediction });
         Ok(())
     }
@@ -25,10 +43,10 @@ impl<T: Kernels> Fleet<T> {
     /// Unless there is room for as many.
     pub fn theta(&self, theta: &mut [T]) {
         let (n, first) = (self.parameters(), self.layout.theta());
-        for (place, block) in self.blocks(theta, n) {
+        for (b, (place, block)) in self.blocks(theta, n).enumerate() {
             for (i, line) in block[first..first + n].iter().enumerate() {
                 for (lane, theta) in place.chunks_exact_mut(n).enumerate() {
-                    theta[i] = line.get(lane);
+                    theta[i] = line.get(lane) * self.reciprocal(b, i, lane);
                 }
             }
         }
@@ -40,21 +58,28 @@ impl<T: Kernels> Fleet<T> {
     /// Unless there is room for as many.
     pub fn variances(&self, variances: &mut [T]) {
         let n = self.parameters();
-        for (place, block) in self.blocks(variances, n) {
+        for (b, (place, block)) in self.blocks(variances, n).enumerate() {
             for (lane, variances) in place.chunks_exact_mut(n).enumerate() {
                 for (i, variance) in variances.iter_mut().enumerate() {
-                    *variance = self.variance(block, lane, i);
+                    *variance = self.variance(block, b, lane, i);
                 }
             }
         }
     }
 
-    /// An element of the diagonal of P, summed as [`Factor`](crate::Factor) does.
-    fn variance(&self, block: &[Line<T>], lane: usize, i: usize) -> T {
-        let d = |k: usize| block[self.layout.diagonal() + k].get(lane);
-        (i + 1..self.parameters()).fold(T::ZERO + d(i), |sum, k| {
-            let u = block[self.layout.column(k) + i].get(lane);
-            sum + u * d(k) * u
+    /// 1/s of a stream, 1 where there are no units.
+    fn reciprocal(&self, block: usize, i: usize, lane: usize) -> T {
+        self.units.as_ref().map_or(T::ONE, |units| units.block(block)[i].get(lane))
+    }
+
+    /// An element of the diagonal of P, expressed and summed as [`Factor`](crate::Factor) does.
+    fn variance(&self, block: &[Line<T>], b: usize, lane: usize, i: usize) -> T {
+        let own = self.reciprocal(b, i, lane);
+        let d = |k: usize, s: T| block[self.layout.diagonal() + k].get(lane) * s * s;
+        (i + 1..self.parameters()).fold(T::ZERO + d(i, own), |sum, k| {
+            let s = self.reciprocal(b, k, lane);
+            let u = block[self.layout.column(k) + i].get(lane) * own / s;
+            sum + u * d(k, s) * u
         })
     }
 

@@ -1,59 +1,15 @@
 //! Streams as estimators and back.
 
-use super::{check_kind, extend, form_of, strength, Fleet, Line};
+use super::part::{Part, Parts};
+use super::starts::Starts;
+use super::units::Units;
+use super::{check_kind, extend, form_of, strength, Fleet, Layout, Line, Streams, FEW};
+use crate::covariance::Prior;
 use crate::error::Error;
-use crate::estimator::AnyEstimator;
-use crate::memory::state::Visitor;
+use crate::estimator::{AnyEstimator, Numbers};
+use crate::memory::Memory;
 use crate::rates::Rate;
-use alloc::vec::Vec;
 use forgetting_kernels::Kernels;
-
-/// The numbers of a stream, in the order of [`Estimator::visit`](crate::Estimator::visit).
-pub struct Numbers<T> {
-    pub numbers: Vec<T>,
-    pub samples: u64,
-    next: usize,
-    give: bool,
-}
-
-impl<T: Kernels> Numbers<T> {
-    /// Those of `estimator`.
-    ///
-    /// # Errors
-    /// [`Error::Unsupported`] unless there are `length` of them.
-    pub fn of(estimator: &mut AnyEstimator<T>, length: usize) -> Result<Self, Error> {
-        let mut numbers = Self { numbers: Vec::new(), samples: 0, next: 0, give: false };
-        estimator.visit(&mut numbers);
-        if numbers.numbers.len() == length {
-            return Ok(numbers);
-        }
-        Err(Error::Unsupported { reason: "a stream of this fleet has P and theta alone" })
-    }
-
-    /// These, to be given to an estimator that visits them.
-    pub fn given(numbers: Vec<T>, samples: u64) -> Self {
-        Self { numbers, samples, next: 0, give: true }
-    }
-}
-
-impl<T: Kernels> Visitor<T> for Numbers<T> {
-    fn reals(&mut self, values: &mut [T]) {
-        if self.give {
-            values.copy_from_slice(&self.numbers[self.next..self.next + values.len()]);
-            self.next += values.len();
-        } else {
-            self.numbers.extend_from_slice(values);
-        }
-    }
-
-    fn whole(&mut self, value: &mut u64) {
-        if self.give {
-            *value = self.samples;
-        } else {
-            self.samples = *value;
-        }
-    }
-}
 
 impl<T: Kernels> Fleet<T> {
     /// Puts `estimator` in the place of a stream.
@@ -65,11 +21,64 @@ impl<T: Kernels> Fleet<T> {
     /// If there is no such stream.
     pub fn put(&mut self, stream: usize, mut estimator: AnyEstimator<T>) -> Result<(), Error> {
         check_kind(&self.fresh, &estimator)?;
-        let given = Numbers::of(&mut estimator, self.layout.length())?;
+        let given = numbers_of(self.layout, &mut estimator)?;
+        let follows = [self.priors.get(stream), estimator.prior()].map(Prior::is_of_data);
+        if follows[1] {
+            self.follow()?;
+        }
         self.set_factor(stream, &estimator)?;
         self.priors.put(stream, estimator.prior(), self.count)?;
-        self.set(stream, given.numbers.into_iter(), given.samples);
+        let [before, after] = follows.map(usize::from);
+        if let Some(units) = &mut self.units {
+            units.following += after;
+        }
+        self.whole().set(stream, &given);
+        if let Some(units) = &mut self.units {
+            units.following -= before;
+        }
         Ok(())
+    }
+
+    /// Makes room for the units of the streams, if there is none.
+    fn follow(&mut self) -> Result<(), Error> {
+        let n = self.parameters();
+        if n > FEW {
+            let reason = "a stream of this fleet has an initial covariance";
+            return Err(Error::Unsupported { reason });
+        }
+        if self.units.is_none() {
+            let mut units = Units::new(n);
+            units.reserve(self.offered.len(), self.count)?;
+            units.grow(&self.offered, self.count);
+            self.units = Some(units);
+        }
+        Ok(())
+    }
+
+    /// All streams.
+    fn whole(&mut self) -> Part<'_, T> {
+        let n = self.parameters();
+        let starts = Starts { fresh: &self.fresh, factors: &self.factors, priors: &self.priors };
+        let units = self.units.as_mut().filter(|units| units.following > 0);
+        let (units, following) = units.map(|units| units.all(starts)).unzip();
+        let streams = Streams {
+            count: self.count,
+            n,
+            form: self.form,
+            strengths: &self.strengths,
+            lines: &mut self.lines,
+            offered: &mut self.offered,
+            unused: &mut self.unused,
+            units,
+            scratch: &mut self.scratch,
+        };
+        Part { streams, following }
+    }
+
+    /// All streams, to be split.
+    pub(super) fn all(&mut self, blocks: usize, scratch: usize) -> Parts<'_, T> {
+        let Part { streams, following } = self.whole();
+        Parts { rest: streams, following, blocks, scratch }
     }
 
     /// The λ of a stream.
@@ -88,33 +97,33 @@ impl<T: Kernels> Fleet<T> {
         Ok(())
     }
 
-    /// Writes the state of a stream.
-    fn set(&mut self, stream: usize, numbers: impl Iterator<Item = T>, samples: u64) {
-        let (block, lane) = (stream / Line::<T>::LANES, stream % Line::<T>::LANES);
-        let length = self.layout.length();
-        let lines = &mut self.lines[block * length..(block + 1) * length];
-        for (line, x) in lines.iter_mut().zip(numbers) {
-            line.set(lane, x);
-        }
-        self.unused[stream] = self.offered[block].wrapping_sub(samples);
-    }
-
     /// Starts the streams that `mask` names again from their priors, or all.
     pub fn reset(&mut self, mask: Option<&[bool]>) {
-        let start = self.start.clone();
-        for stream in 0..self.count {
-            if mask.is_some_and(|mask| !mask[stream]) {
-                continue;
-            }
+        let common = Numbers::of(&mut self.fresh.clone());
+        for stream in (0..self.count).filter(|&stream| mask.is_none_or(|mask| mask[stream])) {
             if self.priors.is_common(stream) {
-                self.set(stream, start.iter().copied(), 0);
+                self.whole().set(stream, &common);
             } else {
-                let prior = self.priors.get(stream).clone();
-                let mut estimator = self.like(self.forgetting_factor(stream), prior);
-                let mut numbers = Numbers { numbers: Vec::new(), samples: 0, next: 0, give: false };
-                estimator.visit(&mut numbers);
-                self.set(stream, numbers.numbers.into_iter(), 0);
+                let own = Numbers::of(&mut self.starts().estimator(stream));
+                self.whole().set(stream, &own);
             }
         }
     }
+}
+
+/// The numbers of an estimator that is to be a stream.
+///
+/// # Errors
+/// [`Error::Unsupported`] for one that remembers more than P, θ and the units of the data.
+pub(super) fn numbers_of<T: Kernels>(
+    layout: Layout,
+    estimator: &mut AnyEstimator<T>,
+) -> Result<Numbers<T>, Error> {
+    let n = estimator.prior().memory().parameters();
+    let (units, counts) = if estimator.prior().is_of_data() { (3 * n, 2) } else { (0, 1) };
+    let numbers = Numbers::of(estimator);
+    if (numbers.numbers.len(), numbers.counts.len()) == (layout.length() + units, counts) {
+        return Ok(numbers);
+    }
+    Err(Error::Unsupported { reason: "a stream of this fleet has P and theta alone" })
 }

@@ -75,9 +75,13 @@ impl<M: Memory> Mixer<M> for Mlpol<M> {
 
     fn weigh(&self, state: &Regrets<M>, weights: &mut [M::Real]) {
         let zero = M::Real::ZERO;
-        let parts = state.regrets.as_ref().iter().zip(state.squares.as_ref());
-        for (weight, (&regret, &square)) in weights.iter_mut().zip(parts) {
-            *weight = if regret > zero && square > zero { regret / square } else { zero };
+        let count = weights.len();
+        let regrets = &state.regrets.as_ref()[..count];
+        let squares = &state.squares.as_ref()[..count];
+        for i in 0..count {
+            let ratio = regrets[i] / squares[i];
+            // no branch: where it is not to be used it may be no number
+            weights[i] = if regrets[i] > zero && squares[i] > zero { ratio } else { zero };
         }
     }
 
@@ -86,17 +90,29 @@ impl<M: Memory> Mixer<M> for Mlpol<M> {
         if state.unit == M::Real::ZERO {
             return;
         }
-        let (unit, two) = (state.unit, M::Real::from_f64(2.0));
-        for i in forecasts.awake() {
-            let parts = forecasts.mixed.iter().zip(forecasts.error(i));
-            let regret = parts.fold(M::Real::ZERO, |sum, (&mixed, &own)| {
-                sum + two * (mixed / unit) * ((mixed - own) / unit)
-            });
-            let largest = &mut state.largest.as_mut()[i];
-            let next = largest.max(regret * regret);
-            state.regrets.as_mut()[i] += regret;
-            state.squares.as_mut()[i] += regret * regret + (next - *largest);
-            *largest = next;
+        // bounded, so that 0 times it is 0
+        let per_unit = (M::Real::ONE / state.unit).min(M::Real::CEILING);
+        let two = M::Real::from_f64(2.0);
+        let (count, width) = (forecasts.awake.len(), forecasts.mixed.len());
+        let regrets = &mut state.regrets.as_mut()[..count];
+        let squares = &mut state.squares.as_mut()[..count];
+        let largest = &mut state.largest.as_mut()[..count];
+        let errors = &forecasts.errors[..count * width];
+        for i in 0..count {
+            if !forecasts.awake[i] {
+                continue;
+            }
+            let mut regret = M::Real::ZERO;
+            for j in 0..width {
+                let mixed = forecasts.mixed[j];
+                let worse = (mixed - errors[i * width + j]) * per_unit;
+                regret += two * (mixed * per_unit) * worse;
+            }
+            let squared = regret * regret;
+            let next = largest[i].max(squared);
+            regrets[i] += regret;
+            squares[i] += squared + (next - largest[i]);
+            largest[i] = next;
         }
     }
 }
@@ -104,10 +120,16 @@ impl<M: Memory> Mixer<M> for Mlpol<M> {
 impl<M: Memory> Regrets<M> {
     /// Makes the unit the largest error so far.
     fn widen(&mut self, forecasts: &Forecasts<'_, M::Real>) {
-        let own = forecasts.awake().flat_map(|i| forecasts.error(i));
-        let unit = own.fold(self.unit, |largest, e| largest.max(e.abs()));
-        let ratio = self.unit / unit;
+        let width = forecasts.mixed.len();
+        let mut unit = self.unit;
+        for (i, &awake) in forecasts.awake.iter().enumerate() {
+            for j in 0..width {
+                let error = forecasts.errors[i * width + j].abs();
+                unit = if awake { unit.max(error) } else { unit };
+            }
+        }
         if unit > self.unit {
+            let ratio = self.unit / unit;
             let squared = ratio * ratio;
             self.regrets.as_mut().iter_mut().for_each(|r| *r *= squared);
             for sum in self.squares.as_mut().iter_mut().chain(self.largest.as_mut()) {

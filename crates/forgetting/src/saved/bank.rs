@@ -32,7 +32,7 @@ impl<T: Kernels> Bank<T> {
         let mut bytes = Vec::from(MARK.as_slice());
         bytes.extend_from_slice(&[VERSION, T::BYTES as u8, u8::from(self.follows_data())]);
         bytes.extend_from_slice(&(self.members().len() as u16).to_le_bytes());
-        for member in self.members() {
+        for member in self.members().iter() {
             let member = member.to_bytes()?;
             bytes.extend_from_slice(&(member.len() as u32).to_le_bytes());
             bytes.extend_from_slice(&member);

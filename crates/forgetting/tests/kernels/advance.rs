@@ -1,7 +1,7 @@
 //! Many samples in one go beside the same samples one by one: the same bits for few parameters,
 //! the same to rounding for more.
 
-use forgetting::rules::Directional;
+use forgetting::rules::{Directional, RandomWalk};
 use forgetting::Outcome;
 use forgetting::{
     Constant, Dynamic, Equal, Estimator, Exponential, Forgetting, Kernels, NoForgetting, Prior,
@@ -157,6 +157,11 @@ pub fn check<T: Kernels>(n: usize) -> Vec<u64> {
         states.extend(exponential);
         states.extend(follow::<_, T>(Subspace::new(threshold).unwrap(), n, watched));
         states.extend(follow::<_, T>(Directional::new(threshold).unwrap(), n, watched));
+        if n <= FEW {
+            let (noise, bound) = (T::from_f64(1e-2), T::from_f64(50.0));
+            let walk = RandomWalk::bounded(noise, bound, Dynamic::new(n, 1, 1).unwrap());
+            states.extend(follow::<_, T>(walk.unwrap(), n, watched));
+        }
     }
     states
 }

@@ -32,7 +32,7 @@ impl<'a, T: Real, A: StreamVector<T>, const N: usize> State<'a, T, A, N> {
     }
 
     #[inline(always)]
-    fn read(&self, at: usize) -> A {
+    pub fn read(&self, at: usize) -> A {
         A::read(&self.lines[at].0.as_ref()[self.lane..])
     }
 
@@ -43,7 +43,7 @@ impl<'a, T: Real, A: StreamVector<T>, const N: usize> State<'a, T, A, N> {
 
     /// N numbers from `at` on.
     #[inline(always)]
-    fn several(&self, at: usize) -> [A; N] {
+    pub fn several(&self, at: usize) -> [A; N] {
         let mut numbers = [A::splat(T::ZERO); N];
         for i in 0..N {
             numbers[i] = self.read(at + i);
@@ -211,7 +211,7 @@ fn along<T: Real, A: StreamVector<T>, const N: usize>(
 
 /// θ ← θ + P·fᵀe. The streams that did not use their samples become again what they were `before`.
 #[inline(always)]
-fn correct<T: Real, A: StreamVector<T>, const N: usize>(
+pub fn correct<T: Real, A: StreamVector<T>, const N: usize>(
     small: Small<A, N, State<'_, T, A, N>>,
     gain: &Gain<A, N>,
     (bound, error): (A, A),

@@ -19,6 +19,8 @@ mod report;
 mod rows;
 pub mod storage;
 pub mod streams;
+pub mod together;
+mod units;
 
 pub use many::SCRATCH;
 pub use predict::Predict;
@@ -79,14 +81,29 @@ fn few<T: Real, V: Vector<T>, const N: usize>(task: &mut Advance<'_, '_, '_, T>)
         let y = rows::outputs(samples, streams.clone());
         let mut report = report::Report::new();
         for lane in (0..lanes).step_by(V::StreamVector::COUNT) {
-            let phi = rows::columns(rows, lane);
+            let mut phi = rows::columns(rows, lane);
+            if let Some(units) = &mut part.units {
+                let lines = &mut units.lines[block * 3 * N..(block + 1) * 3 * N];
+                units::Block { lines, lane }.measure(&mut phi);
+            }
             let state = few::State::<T, V::StreamVector, N>::of(lines, lane);
             let strength = V::StreamVector::read(&strength[lane..]);
             let y = V::StreamVector::read(&y.0.as_ref()[lane..]);
             let outcome = few::advance(state, (part.form, strength), (&phi, y), with_leverage);
             report.note(lane, &outcome);
+            if let Some(units) = &mut part.units {
+                let lines = &mut units.lines[block * 3 * N..(block + 1) * 3 * N];
+                let mut units = units::Block { lines, lane };
+                // once more, so that it need not be kept until now where there are no units
+                let mut phi = rows::columns(rows, lane);
+                units.measure(&mut phi);
+                units.learn::<V::StreamVector, N>(&phi, outcome.codes);
+            }
         }
         part.offered[block] += 1;
+        if let Some(units) = &mut part.units {
+            report.count_unmeasured(&mut units.unmeasured[streams.clone()]);
+        }
         used += report.write(part.unused, outputs, streams);
     }
     used

@@ -69,6 +69,17 @@ impl<T: Real> Report<T> {
         }
     }
 
+    /// Counts the samples that streams did not use.
+    #[inline(always)]
+    pub fn count_unmeasured(&self, unmeasured: &mut [u64]) {
+        if self.all {
+            return;
+        }
+        for (lane, unmeasured) in unmeasured.iter_mut().enumerate() {
+            *unmeasured += u64::from(self.codes.get(lane) > T::ZERO);
+        }
+    }
+
     /// Writes it for these streams, of as many as there are lanes or the last of all; returns how
     /// many used their samples.
     #[inline(always)]

@@ -71,6 +71,17 @@ pub struct Streams<'a, T: Real> {
     pub offered: &'a mut [u64],
     /// how many of them each stream has not used
     pub unused: &'a mut [u64],
+    /// those of the streams, if they follow the data: of at most ten parameters
+    pub units: Option<Units<'a, T>>,
     /// [`SCRATCH`](super::SCRATCH) lines a parameter, for more than [`FEW`](crate::kernel::layout::FEW)
     pub scratch: &'a mut [Line<T>],
+}
+
+/// The units in which neighbouring streams measure their regressors.
+#[derive(Debug)]
+pub struct Units<'a, T: Real> {
+    /// for each block n lines 1/s, n of Σ x² and n of how many x there were other than 0, with x = φ/s
+    pub lines: &'a mut [Line<T>],
+    /// how many of the samples offered each stream has not measured
+    pub unmeasured: &'a mut [u64],
 }

@@ -8,6 +8,7 @@ use crate::number::Real;
 
 mod along;
 mod chain;
+mod columns;
 pub mod floor;
 mod unit;
 mod walk;

@@ -12,11 +12,40 @@
 //! changes U by little more than rounding.
 //!
 //! It takes 2n³/3 products and n divisions; one dyad after the other would take half the products and
-//! n²/2 divisions. Row j is 0 before its diagonal in both halves.
+//! n²/2 divisions. Row j is 0 before its diagonal in both halves and 1 on it until its own turn, and
+//! row i of the second half is 0 at j > i until the turn of row j.
+//!
+//! [`Small::walk`] goes along rows, for streams side by side; `columns` along columns, for a single one.
+//! Both take the same sums in the same order: what is added to D_j in four parts, that to U_ij in two.
 
 use super::{Small, Unit};
 use crate::number::lane::Lane;
 use crate::number::Real;
+
+/// Calls `$step::<J>` for the rows J, from the last of at most ten.
+macro_rules! from_the_last {
+    ($rows:ident.$step:ident::<$($T:ident),+>($($argument:expr),*)) => {
+        $rows.$step::<$($T,)+ 9>($($argument),*);
+        $rows.$step::<$($T,)+ 8>($($argument),*);
+        $rows.$step::<$($T,)+ 7>($($argument),*);
+        $rows.$step::<$($T,)+ 6>($($argument),*);
+        $rows.$step::<$($T,)+ 5>($($argument),*);
+        $rows.$step::<$($T,)+ 4>($($argument),*);
+        $rows.$step::<$($T,)+ 3>($($argument),*);
+        $rows.$step::<$($T,)+ 2>($($argument),*);
+        $rows.$step::<$($T,)+ 1>($($argument),*);
+        $rows.$step::<$($T,)+ 0>($($argument),*);
+    };
+}
+pub(super) use from_the_last;
+
+/// [U, I], and Δ.
+struct Rows<A, const N: usize> {
+    left: [[A; N]; N],
+    right: [[A; N]; N],
+    weights: [A; N],
+    noise: A,
+}
 
 impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
     /// P ← `shrink`·P + `noise`·I.
@@ -25,49 +54,114 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
     where
         A: Lane<T>,
     {
-        let (one, zero) = (A::splat(T::ONE), A::splat(T::ZERO));
-        // the rows of U and of I as they become orthogonal
-        let (mut left, mut right) = ([[zero; N]; N], [[zero; N]; N]);
-        let mut weights = self.d;
+        // anything but zeros, which would be a call; nothing is read before it is written
+        let mut rows =
+            Rows { left: [[noise; N]; N], right: [[noise; N]; N], weights: self.d, noise };
         for m in 0..N {
-            weights[m] = weights[m] * shrink;
-            left[m][m] = one;
-            right[m][m] = one;
+            rows.weights[m] = self.d[m] * shrink;
             for i in 0..m {
-                left[i][m] = self.u.get(m, i);
+                rows.left[i][m] = self.u.get(m, i);
             }
         }
-        for j in (0..N).rev() {
-            let (mut heavy, mut light) = ([zero; N], [zero; N]);
-            let light_j = noise * right[j][j];
-            light[j] = light_j;
-            let mut added = light_j * right[j][j];
-            for m in j + 1..N {
-                heavy[m] = weights[m] * left[j][m];
-                light[m] = noise * right[j][m];
-                added = heavy[m].mul_add(left[j][m], added);
-                added = light[m].mul_add(right[j][m], added);
-            }
-            self.d[j] = weights[j] + added;
-            let inverse = one / self.d[j];
-            for i in 0..j {
-                let before = left[i][j];
-                let mut sum = -(before * added);
-                for m in j + 1..N {
+        from_the_last!(rows.step::<T>(self));
+    }
+}
+
+impl<A: Copy, const N: usize> Rows<A, N> {
+    /// Row J and its part in those before it.
+    #[inline(always)]
+    fn step<T: Real, const J: usize>(&mut self, small: &mut Small<A, N, impl Unit<A, N>>)
+    where
+        A: Lane<T>,
+    {
+        if J >= N {
+            return;
+        }
+        let Self { left, right, weights, noise } = self;
+        let (mut heavy, mut light) = ([*noise; N], [*noise; N]);
+        let mut parts = Parts::of(*noise);
+        for m in J + 1..N {
+            heavy[m] = weights[m] * left[J][m];
+            light[m] = *noise * right[J][m];
+            parts.add::<T>(m - J, (heavy[m], left[J][m]), (light[m], right[J][m]));
+        }
+        let added = parts.sum::<T>();
+        let d = weights[J] + added;
+        small.d[J] = d;
+        let inverse = A::splat(T::ONE) / d;
+        for i in 0..J {
+            let before = left[i][J];
+            let mut change = -before * added;
+            if J + 1 < N {
+                let mut sum = left[i][J + 1] * heavy[J + 1];
+                let mut of_noise = right[i][J + 1] * light[J + 1];
+                for m in J + 2..N {
                     sum = left[i][m].mul_add(heavy[m], sum);
-                    sum = right[i][m].mul_add(light[m], sum);
+                    of_noise = right[i][m].mul_add(light[m], of_noise);
                 }
-                let change = sum * inverse;
-                let u = before + change;
-                self.u.set(j, i, u);
-                let less = -u;
-                left[i][j] = -change;
-                right[i][j] = less.mul_add(right[j][j], right[i][j]);
-                for m in j + 1..N {
-                    left[i][m] = less.mul_add(left[j][m], left[i][m]);
-                    right[i][m] = less.mul_add(right[j][m], right[i][m]);
-                }
+                // what is known last comes last
+                change = (-before).mul_add(added, sum + of_noise);
             }
+            let change = change * inverse;
+            let u = before + change;
+            small.u.set(J, i, u);
+            let less = -u;
+            left[i][J] = -change;
+            right[i][J] = less;
+            for m in J + 1..N {
+                left[i][m] = less.mul_add(left[J][m], left[i][m]);
+                right[i][m] = less.mul_add(right[J][m], right[i][m]);
+            }
+        }
+    }
+}
+
+/// What is added to D_j as it is summed: what U and what I bring, each in two parts, so that fewer wait
+/// for each other.
+pub(super) struct Parts<A> {
+    heavy: [A; 2],
+    light: [A; 2],
+    count: usize,
+}
+
+impl<A: Copy> Parts<A> {
+    /// What is on the diagonal.
+    #[inline(always)]
+    pub fn of(noise: A) -> Self {
+        Self { heavy: [noise; 2], light: [noise; 2], count: 0 }
+    }
+
+    /// The products that are `distance` right of it, from 1 on.
+    #[inline(always)]
+    pub fn add<T: Real>(&mut self, distance: usize, heavy: (A, A), light: (A, A))
+    where
+        A: Lane<T>,
+    {
+        let part = distance % 2;
+        match distance {
+            1 => (self.heavy[1], self.light[1]) = (heavy.0 * heavy.1, light.0 * light.1),
+            2 => {
+                self.heavy[0] = heavy.0 * heavy.1;
+                self.light[0] = light.0.mul_add(light.1, self.light[0]);
+            }
+            _ => {
+                self.heavy[part] = heavy.0.mul_add(heavy.1, self.heavy[part]);
+                self.light[part] = light.0.mul_add(light.1, self.light[part]);
+            }
+        }
+        self.count = distance;
+    }
+
+    #[inline(always)]
+    pub fn sum<T: Real>(self) -> A
+    where
+        A: Lane<T>,
+    {
+        let Self { heavy, light, count } = self;
+        match count {
+            0 => light[0],
+            1 => heavy[1] + (light[0] + light[1]),
+            _ => (heavy[0] + heavy[1]) + (light[0] + light[1]),
         }
     }
 }

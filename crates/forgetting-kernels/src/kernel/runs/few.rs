@@ -9,7 +9,7 @@ use super::{accepts, Steps};
 use crate::kernel::dispatch::Kernel;
 use crate::kernel::form::{shrink, Form};
 use crate::number::lane::One;
-use crate::number::vector::Vector;
+use crate::number::vector::{StreamVector, Vector};
 use crate::number::Real;
 
 /// Which form of forgetting a kernel is for.
@@ -36,10 +36,10 @@ impl<T: Real, const N: usize, const FORM: u8> Kernel<T> for Few<'_, '_, T, N, FO
         }
         match N {
             // there is less arithmetic than waiting for it
-            0..=4 => in_registers::<T, V::One, N, FORM>(self.0),
+            0..=4 => in_registers::<T, V::One, V::StreamVector, N, FORM>(self.0),
             // more of it than of numbers: the compiler would lose time with pairs of them
-            _ if FORM == ALONG => in_place::<T, V::One, N, FORM>(self.0),
-            _ => in_place::<T, T, N, FORM>(self.0),
+            _ if FORM == ALONG => in_place::<T, V::One, V::StreamVector, N, FORM>(self.0),
+            _ => in_place::<T, T, V::StreamVector, N, FORM>(self.0),
         }
         .unwrap_or(0)
     }
@@ -47,38 +47,44 @@ impl<T: Real, const N: usize, const FORM: u8> Kernel<T> for Few<'_, '_, T, N, FO
 
 /// With U in registers.
 #[inline(always)]
-fn in_registers<T: Real, A: One<T>, const N: usize, const FORM: u8>(
+fn in_registers<T: Real, A: One<T>, L: StreamVector<T>, const N: usize, const FORM: u8>(
     task: &mut Steps<'_, T>,
 ) -> Option<usize> {
     let mut small = Small::<A, N>::load(task.place.columns, task.place.diagonal.first_chunk()?);
-    let taken = all::<T, A, _, N, FORM>(task, &mut small)?;
+    let taken = all::<T, A, L, _, N, FORM>(task, &mut small)?;
     small.store(task.place.columns, task.place.diagonal.first_chunk_mut()?);
     Some(taken)
 }
 
 /// With U where it is kept.
 #[inline(always)]
-fn in_place<T: Real, A: One<T>, const N: usize, const FORM: u8>(
+fn in_place<T: Real, A: One<T>, L: StreamVector<T>, const N: usize, const FORM: u8>(
     task: &mut Steps<'_, T>,
 ) -> Option<usize> {
     let d = A::splat_each(task.place.diagonal.first_chunk()?);
     let u = InPlace::of::<N>(core::mem::take(&mut task.place.columns));
     let mut small = Small { u, d };
-    let taken = all::<T, A, _, N, FORM>(task, &mut small)?;
+    let taken = all::<T, A, L, _, N, FORM>(task, &mut small)?;
     *task.place.diagonal.first_chunk_mut()? = A::get_each(&small.d);
     Some(taken)
 }
 
 #[inline(always)]
-fn all<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const FORM: u8>(
+fn all<T, A, L, U, const N: usize, const FORM: u8>(
     task: &mut Steps<'_, T>,
     small: &mut Small<A, N, U>,
-) -> Option<usize> {
+) -> Option<usize>
+where
+    T: Real,
+    A: One<T>,
+    L: StreamVector<T>,
+    U: Unit<A, N>,
+{
     let mut theta = A::splat_each(task.theta.first_chunk::<N>()?);
     let (most, mut taken) = (task.outcomes.len().min(task.y.len()), 0);
     let (mut trace, mut tight) = (*task.place.bound, false);
     while taken < most {
-        match take::<T, A, U, N, FORM>(task, taken, small, (&mut theta, &mut trace)) {
+        match take::<T, A, L, U, N, FORM>(task, taken, small, (&mut theta, &mut trace)) {
             0 if tight => break,
             // perhaps only because the bound is far above the trace
             0 => (trace, tight) = (small.trace().get(), true),
@@ -92,12 +98,18 @@ fn all<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const FORM: u8>(
 /// Takes samples from `at` on; returns how many. 0 means that `trace`, which is at least that of P, is
 /// too large, or that the next one must be taken elsewhere.
 #[inline(always)]
-fn take<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const FORM: u8>(
+fn take<T, A, L, U, const N: usize, const FORM: u8>(
     task: &mut Steps<'_, T>,
     at: usize,
     small: &mut Small<A, N, U>,
     (theta, trace): (&mut [A; N], &mut T),
-) -> usize {
+) -> usize
+where
+    T: Real,
+    A: One<T>,
+    L: StreamVector<T>,
+    U: Unit<A, N>,
+{
     let Steps { place, form, phi, y, outcomes, thetas, .. } = task;
     let mut bounds = Bounds { kept: &mut *place.bound, tight: *trace };
     let mut after = thetas.get_mut(at * N..).unwrap_or_default().as_chunks_mut::<N>().0.iter_mut();
@@ -123,7 +135,8 @@ fn take<T: Real, A: One<T>, U: Unit<A, N>, const N: usize, const FORM: u8>(
                     along::<T, A, U, N, false>(small, &mut bounds, weight, sample, least)
                 }
                 Form::Walk { noise, per_bound } if FORM == WALK => {
-                    walk::<T, A, U, N, false>(small, &mut bounds, (noise, per_bound), sample, least)
+                    let noise = (noise, per_bound);
+                    walk::<T, A, L, U, N, false>(small, &mut bounds, noise, sample, least)
                 }
                 _ => None,
             };

@@ -42,12 +42,12 @@ impl Missing {
 }
 
 /// The samples of a record.
-struct Record<'a, T> {
-    sizes: Sizes,
-    phi: &'a [T],
-    y: &'a [T],
-    noise: RecordNoise<'a, T>,
-    missing: Missing,
+pub(crate) struct Record<'a, T> {
+    pub sizes: Sizes,
+    pub phi: &'a [T],
+    pub y: &'a [T],
+    pub noise: RecordNoise<'a, T>,
+    pub missing: Missing,
 }
 
 /// Updates `estimator` with every sample; on an error it is as it was before the first.

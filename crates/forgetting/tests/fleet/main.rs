@@ -1,5 +1,7 @@
 //! A stream of a fleet is the estimator: bit for bit up to ten parameters, to rounding above.
 
+mod following;
+
 use forgetting::choice::{Defaults, Value, Values};
 use forgetting::fleet::{Fleet, Outputs, Samples, REFUSED};
 use forgetting::rates::AnyRate;
@@ -354,7 +356,7 @@ fn what_does_not_fit_is_refused_and_changes_nothing() {
     assert!(matches!(fleet.update(samples, short), Err(Error::Length { .. })));
     assert!(matches!(fleet.put(0, estimator("none", 2, 0.9)), Err(Error::Unsupported { .. })));
     assert!(matches!(fleet.grow(usize::MAX / 4), Err(Error::Memory)));
-    let reset = estimator::<f64>("random_walk", 2, 0.9);
+    let reset = estimator::<f64>("constant_trace", 2, 0.9);
     assert!(matches!(Fleet::of(reset), Err(Error::Unsupported { .. })));
     assert_eq!(fleet.get(0).to_bytes().unwrap(), before);
     assert_eq!(fleet.count(), COUNT);
