@@ -1,6 +1,6 @@
 //! [`Small::walk`] of a single stream, with vectors along the columns of [U, I].
 
-use super::walk::{from_the_last, Parts};
+use super::walk::{from_the_last, turn, Parts};
 use super::{Small, Unit};
 use crate::number::lane::One;
 use crate::number::vector::StreamVector;
@@ -94,16 +94,14 @@ impl<A: Copy, const N: usize> Columns<A, N> {
         small.d[J] = O::splat(first_of(d));
         let inverse = A::splat(T::ONE) / d;
         if J > ROWS {
-            let before = self.ninth[0];
-            let change = -before * added * inverse;
-            let u = before + change;
+            let of_d = (self.weights[J], added, inverse);
+            let (u, left_over) = turn(self.ninth[0], A::splat(T::ZERO), of_d);
             small.u.set(J, ROWS, O::splat(first_of(u)));
-            self.ninth = [-change, -u];
+            self.ninth = [left_over, -u];
         }
         for block in 0..BLOCKS {
             if block * A::COUNT < J {
-                let before = self.left[J][block];
-                let mut change = -before * added;
+                let mut rest = A::splat(T::ZERO);
                 if J + 1 < N {
                     let mut sum = self.left[J + 1][block] * heavy[J + 1];
                     let mut of_noise = self.right[J + 1][block] * light[J + 1];
@@ -111,14 +109,13 @@ impl<A: Copy, const N: usize> Columns<A, N> {
                         sum = self.left[m][block].mul_add(heavy[m], sum);
                         of_noise = self.right[m][block].mul_add(light[m], of_noise);
                     }
-                    // what is known last comes last
-                    change = (-before).mul_add(added, sum + of_noise);
+                    rest = sum + of_noise;
                 }
-                let change = change * inverse;
-                let u = before + change;
+                let of_d = (self.weights[J], added, inverse);
+                let (u, left_over) = turn(self.left[J][block], rest, of_d);
                 put(small, (J, block * A::COUNT), u);
                 let less = -u;
-                self.left[J][block] = -change;
+                self.left[J][block] = left_over;
                 self.right[J][block] = less;
                 for m in J + 1..N {
                     self.left[m][block] = less.mul_add(left[m], self.left[m][block]);

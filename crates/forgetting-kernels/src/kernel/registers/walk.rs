@@ -8,8 +8,9 @@
 //!     for i < j:                     U_ij ← w_i Δ w_jᵀ / D_j,  w_i ← w_i − U_ij w_j
 //! ```
 //!
-//! U_ij changes by the share of noise in D_j: it is this change that is computed, so that a little noise
-//! changes U by little more than rounding.
+//! U_ij changes by the share of noise in D_j: where that is the smaller share, it is this change that is
+//! computed, so that a little noise changes U by little more than rounding. Where nearly all of a long
+//! column goes, U_ij is computed as a whole.
 //!
 //! It takes 2n³/3 products and n divisions; one dyad after the other would take half the products and
 //! n²/2 divisions. Row j is 0 before its diagonal in both halves and 1 on it until its own turn, and
@@ -90,8 +91,7 @@ impl<A: Copy, const N: usize> Rows<A, N> {
         small.d[J] = d;
         let inverse = A::splat(T::ONE) / d;
         for i in 0..J {
-            let before = left[i][J];
-            let mut change = -before * added;
+            let mut rest = A::splat(T::ZERO);
             if J + 1 < N {
                 let mut sum = left[i][J + 1] * heavy[J + 1];
                 let mut of_noise = right[i][J + 1] * light[J + 1];
@@ -99,14 +99,12 @@ impl<A: Copy, const N: usize> Rows<A, N> {
                     sum = left[i][m].mul_add(heavy[m], sum);
                     of_noise = right[i][m].mul_add(light[m], of_noise);
                 }
-                // what is known last comes last
-                change = (-before).mul_add(added, sum + of_noise);
+                rest = sum + of_noise;
             }
-            let change = change * inverse;
-            let u = before + change;
+            let (u, left_over) = turn(left[i][J], rest, (weights[J], added, inverse));
             small.u.set(J, i, u);
             let less = -u;
-            left[i][J] = -change;
+            left[i][J] = left_over;
             right[i][J] = less;
             for m in J + 1..N {
                 left[i][m] = less.mul_add(left[J][m], left[i][m]);
@@ -114,6 +112,22 @@ impl<A: Copy, const N: usize> Rows<A, N> {
             }
         }
     }
+}
+
+/// U_ij after the turn of row j, and what row i keeps at column j: from U_ij `before`, from the `rest` of
+/// w_i Δ w_jᵀ, and from D_j, which is `weight` + `added` and has this `inverse`.
+#[inline(always)]
+pub(super) fn turn<T: Real, A: Lane<T>>(
+    before: A,
+    rest: A,
+    (weight, added, inverse): (A, A, A),
+) -> (A, A) {
+    let little = added.at_most(weight);
+    // what is known last comes last
+    let change = (-before).mul_add(added, rest) * inverse;
+    let whole = before.mul_add(weight, rest) * inverse;
+    let u = A::select(little, before + change, whole);
+    (u, A::select(little, -change, before - whole))
 }
 
 /// What is added to D_j as it is summed: what U and what I bring, each in two parts, so that fewer wait
