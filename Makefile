@@ -4,6 +4,7 @@
 #   make bench   speed beside Eigen, dlib, Numba, NumPy by hand, ... in a few minutes; bench-full: all peers
 #                and sizes. For the C++ peers: a C++ compiler, and Debian's libeigen3-dev, libdlib-dev,
 #                libopenblas0-pthread; without them the report says what is missing
+#   make accuracy RECORDS=folder    one-step errors beside the best that could have been chosen in hindsight
 #   make docs    the documentation, warnings as errors
 #   make fuzz    random input for FUZZ_SECONDS a target (an hour), new seeds each time
 #   make soak    a billion samples through every rule of O(n^2), in hours; goes on where it was stopped
@@ -81,6 +82,10 @@ docs: build
 # what pip cannot install, the report names
 PEERS = sed -e 's/ *\#.*//' -e '/^$$/d' $(1) | while read peer; do \
 	$(PIP) install --no-warn-conflicts "$$peer" || echo "not installed: $$peer" >&2; done
+
+RECORDS ?= $(error RECORDS is not set: make accuracy RECORDS=folder, of .csv or .parquet files)
+accuracy: build
+	$(BIN)/python -m benchmarks.accuracy $(RECORDS)
 
 bench: $(VENV)/ready
 	$(DEVELOP) --release

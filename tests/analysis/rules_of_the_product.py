@@ -13,7 +13,15 @@ import numpy as np
 import forgetting as fg
 from forgetting.analysis import Trajectory
 
-OUTPUTS = ("theta", "covariance", "prior_covariance", "skipped", "gate", "forgetting_factor")
+OUTPUTS = (
+    "theta",
+    "covariance",
+    "prior_covariance",
+    "skipped",
+    "gate",
+    "weight",
+    "forgetting_factor",
+)
 GAIN = 0.5
 
 

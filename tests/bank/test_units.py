@@ -19,7 +19,7 @@ IN_UNITS_OF_Y = {"data_dependent"}
 def record(
     samples: int = 400, n: int = 4, seed: int = 0, first: float | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Regressors of different sizes, one silent at first and one in the middle; drifting parameters.
+    """Regressors of different sizes, one silent at first, one in the middle; drifting parameters.
 
     With `first`, the silent one has spoken all along, and is `first` times larger at the start.
     """
