@@ -5,8 +5,8 @@
 Each record is an ARX model of its last column on the others, two past outputs, two of each input
 and an offset; or, with --formula, any model. For each: the root mean square of the one-step errors
 from a tenth of the record on, over that of the best of a grid of rules, factors and priors, with
-every column scaled to unit mean square (hindsight: scale and grid see the whole record). Peers run at
-their defaults, on the columns as they are.
+every column scaled to unit mean square (hindsight: scale and grid see the whole record). Peers run
+at their defaults, on the columns as they are.
 """
 
 from __future__ import annotations

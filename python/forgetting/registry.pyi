@@ -988,6 +988,9 @@ class Mlpol(Mixer):
     w_i ∝ max(R_i, 0)/S_i                  all alike while no regret is positive
     ```
 
+    | symbol | name | range | default |
+    |---|---|---|---|
+
     e is the error of the mixture and e_i that of member i; for several rows and targets the products
     are sums over them.
 
