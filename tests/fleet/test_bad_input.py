@@ -110,7 +110,7 @@ STRANGERS = [
 
 @pytest.mark.parametrize(("stranger", "message"), STRANGERS, ids=lambda a: str(a)[:60])
 def test_an_estimator_of_another_kind(stranger, message):
-    fleet = fg.Fleet(4, 3)
+    fleet = fg.Fleet(4, 3, rule="subspace")
     before = fleet._states()
     with pytest.raises(fg.InvalidInput, match=message):
         fleet[1] = stranger

@@ -29,7 +29,7 @@ fn kernels<T: Kernels>() -> Vec<*const ()> {
         T::advance_together as *const (),
         T::mix_thetas as *const (),
         T::scale_rows as *const (),
-        T::sum_squares as *const (),
+        T::sum_roots as *const (),
         T::watch_run as *const (),
         T::watch_one as *const (),
         T::update_eigenvectors as *const (),

@@ -31,7 +31,7 @@ use pyo3::types::{PyBytes, PyDict, PyType};
 ///     As those of `RLS`.
 /// initial_covariance : float, (n,) or (n, n) array, optional
 ///     P before the first sample of all members, in units of 1/phi**2. If not given, each
-///     regressor is measured in units of its root mean square so far, and P is 1e5 in these.
+///     regressor is measured in units of its typical size so far, and P is 1e5 in these.
 /// initial_theta : (n,) or (n, targets) array, optional
 ///     Estimate before the first sample, together with an initial covariance.
 /// dtype : {"float64", "float32"}

@@ -35,7 +35,7 @@ use pyo3::types::{PyBytes, PyDict, PyType};
 ///     Parameter vectors that share phi and one covariance.
 /// initial_covariance : float, (n,) or (n, n) array, optional
 ///     P before the first sample, positive definite, in units of 1/phi**2. If not given, each
-///     regressor is measured in units of its root mean square so far, and P is 1e5 in these: no
+///     regressor is measured in units of its typical size so far, and P is 1e5 in these: no
 ///     prediction then depends on the units of phi or y, and what a rule, a rate or a gate is told
 ///     (a threshold, a process noise, an information matrix) is in these units, too.
 /// initial_theta : (n,) or (n, targets) array, optional

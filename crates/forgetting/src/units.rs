@@ -3,19 +3,22 @@
 //! ```text
 //! x_i = φ_i / s_i        what the recursion is given in the place of φ_i
 //! s_i = |φ_i|            when φ_i is first other than 0, then
-//! s_i = rms φ_i          over all φ_i ≠ 0 so far, renewed after 2n, 4n, 8n, … samples
+//! s_i = (mean √|φ_i|)²   over all φ_i ≠ 0 so far, renewed after 2n, 4n, 8n, … samples
 //! ```
 //!
 //! Whatever the recursion does then depends on x alone: no prediction depends on the units in which
 //! a user writes φ, and every setting of a rule is a pure number. When the units are renewed by
 //! r = s/s₊, P becomes S P S with S = diag(s₊/s) and θ becomes S θ: what they say of the parameters
-//! is the same. A first value that is not typical therefore counts for 2n samples and no more.
+//! is the same.
 //!
-//! Only x is squared and summed, never φ, so that no unit can overflow.
+//! Roots are averaged, not squares, so that values that are not typical count for little: a first value
+//! a thousand times the others makes s 23 times too large after 8 samples and 1.06 times after 1000,
+//! where a root mean square would be 350 and 32 times too large. Only x is summed, never φ, so that no
+//! unit can overflow.
 
 use crate::memory::state::{State, Visitor, MOST_SAMPLES};
 use crate::memory::Memory;
-use forgetting_kernels::kernel::units::{ScaleRows, SumSquares};
+use forgetting_kernels::kernel::units::{ScaleRows, SumRoots};
 use forgetting_kernels::{Kernels, Real};
 
 /// s, and what it is made from.
@@ -24,8 +27,8 @@ pub(crate) struct Units<M: Memory> {
     memory: M,
     /// 1/s_i; 1 until φ_i has been other than 0
     reciprocals: M::Vector,
-    /// Σ x_i² over the x_i ≠ 0
-    squares: M::Vector,
+    /// Σ √|x_i| over the x_i ≠ 0
+    roots: M::Vector,
     /// how many of them there were; 0 for a parameter whose regressor has always been 0
     counts: M::Vector,
     /// samples measured
@@ -39,8 +42,8 @@ impl<M: Memory> Units<M> {
     pub fn new(memory: M) -> Self {
         let mut reciprocals = memory.vector();
         reciprocals.as_mut().fill(M::Real::ONE);
-        let (squares, counts, ratios) = (memory.vector(), memory.vector(), memory.vector());
-        Self { memory, reciprocals, squares, counts, samples: 0, ratios }
+        let (roots, counts, ratios) = (memory.vector(), memory.vector(), memory.vector());
+        Self { memory, reciprocals, roots, counts, samples: 0, ratios }
     }
 
     /// 1/s_i
@@ -114,8 +117,8 @@ impl<M: Memory> Units<M> {
     /// Takes note of the rows of `samples` samples as they were measured.
     #[inline]
     pub fn learn(&mut self, measured: &[M::Real], samples: u64) {
-        let (squares, counts) = (self.squares.as_mut(), self.counts.as_mut());
-        M::Real::sum_squares(SumSquares { rows: measured, squares, counts });
+        let (roots, counts) = (self.roots.as_mut(), self.counts.as_mut());
+        M::Real::sum_roots(SumRoots { rows: measured, roots, counts });
         self.samples += samples;
     }
 
@@ -124,12 +127,12 @@ impl<M: Memory> Units<M> {
         if !is_renewal(self.memory.parameters() as u64, self.samples) {
             return None;
         }
-        let (squares, counts) = (self.squares.as_ref(), self.counts.as_ref());
+        let (roots, counts) = (self.roots.as_ref(), self.counts.as_ref());
         for (i, ratio) in self.ratios.as_mut().iter_mut().enumerate() {
-            let mean = squares[i] / counts[i];
+            let mean = roots[i] / counts[i];
             // a mean that is not a number is that of no values
-            *ratio =
-                if mean > M::Real::ZERO { Self::within_range(mean.sqrt()) } else { M::Real::ONE };
+            let any = mean > M::Real::ZERO;
+            *ratio = if any { Self::within_range(mean * mean) } else { M::Real::ONE };
         }
         Some(self.ratios.as_ref())
     }
@@ -142,9 +145,9 @@ impl<M: Memory> Units<M> {
 
     /// Makes the renewal that [`Units::due`] found.
     pub fn renew(&mut self) {
-        let (squares, reciprocals) = (self.squares.as_mut(), self.reciprocals.as_mut());
+        let (roots, reciprocals) = (self.roots.as_mut(), self.reciprocals.as_mut());
         for (i, &ratio) in self.ratios.as_ref().iter().enumerate() {
-            squares[i] = squares[i] / ratio / ratio;
+            roots[i] /= ratio.sqrt();
             reciprocals[i] /= ratio;
         }
     }
@@ -163,13 +166,13 @@ pub(crate) fn is_renewal(n: u64, samples: u64) -> bool {
 impl<M: Memory> State<M::Real> for Units<M> {
     fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
         visitor.reals(self.reciprocals.as_mut());
-        visitor.reals(self.squares.as_mut());
+        visitor.reals(self.roots.as_mut());
         visitor.reals(self.counts.as_mut());
         visitor.whole(&mut self.samples);
     }
 
     fn is_sound(&self) -> bool {
-        let sums = [self.squares.as_ref(), self.counts.as_ref()];
+        let sums = [self.roots.as_ref(), self.counts.as_ref()];
         self.samples <= MOST_SAMPLES
             && sums.iter().all(|sums| sums.iter().all(|x| *x >= M::Real::ZERO && x.is_finite()))
             && self.reciprocals.as_ref().iter().all(|x| *x > M::Real::ZERO && x.is_finite())

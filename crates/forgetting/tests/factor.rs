@@ -216,7 +216,10 @@ fn replaces<T: Kernels>(case: &Case) {
     factor.put_block(half, &columns, &diagonal);
     let block = reconstruct(&factor);
     for (i, j) in (0..half).flat_map(|i| (0..half).map(move |j| (i, j))) {
-        assert_eq!(block.at(i, j), block.at(half + i, half + j));
+        let (first, second) = (block.at(i, j), block.at(half + i, half + j));
+        // the sums of the second may be taken in another order
+        let rounding = T::EPSILON.to_f64() * 8.0;
+        assert!((first - second).abs() <= rounding * block.at(i, i).max(block.at(j, j)));
         assert_eq!(block.at(i, half + j), 0.0);
     }
 }

@@ -63,7 +63,7 @@ class Trace:
     rows : ndarray of int, shape (K,)
         Rows after which the eigenvalues were taken.
     eigenvalues : ndarray, shape (K, n)
-        Eigenvalues of P, ascending; for regressors in units of their root mean square where P
+        Eigenvalues of P, ascending; for regressors in units of their typical size where P
         before the first sample was not given.
     covariances : ndarray, shape (K, n, n)
         P after these rows.

@@ -9,7 +9,7 @@ use super::measure::Measure;
 use super::measured::Measured;
 use super::runs::Steps;
 use super::triangle::{Leverage, Multiply, MultiplyTransposed, Solve};
-use super::units::{ScaleRows, SumSquares};
+use super::units::{ScaleRows, SumRoots};
 use super::variances::Variances;
 use super::vectors::{AddScaled, Arrive, Dot};
 use super::watch::{Observation, Observations, Watch};
@@ -53,7 +53,7 @@ pub trait Kernels: Real {
     /// Each row times the same numbers, one for each column.
     fn scale_rows(task: ScaleRows<'_, Self>);
     /// The squares of each column, and how many numbers are not 0.
-    fn sum_squares(task: SumSquares<'_, Self>);
+    fn sum_roots(task: SumRoots<'_, Self>);
     /// φθ of each stream.
     fn predict_streams(task: Predict<'_, Self>);
     /// Shows a run of samples of one row to the monitor; returns how many of them left P wound up.
@@ -82,7 +82,7 @@ macro_rules! compile_kernels {
             use $crate::kernel::measured::Measured;
             use $crate::kernel::runs::{self, Steps};
             use $crate::kernel::triangle::{Leverage, Multiply, MultiplyTransposed, Solve};
-            use $crate::kernel::units::{ScaleRows, SumSquares};
+            use $crate::kernel::units::{ScaleRows, SumRoots};
             use $crate::kernel::variances::Variances;
             use $crate::kernel::vectors::{AddScaled, Arrive, Dot};
             use $crate::kernel::watch::{Observation, Observations, Watch};
@@ -138,7 +138,7 @@ macro_rules! compile_kernels {
                 fn scale_rows(task: ScaleRows<'_, Self>) {
                     <$Dispatch>::run(task)
                 }
-                fn sum_squares(task: SumSquares<'_, Self>) {
+                fn sum_roots(task: SumRoots<'_, Self>) {
                     <$Dispatch>::run(task)
                 }
                 fn predict_streams(task: Predict<'_, Self>) {

@@ -58,31 +58,31 @@ fn scale_many<T: Real, V: Vector<T>>(rows: &mut [T], factors: &[T]) {
     }
 }
 
-/// Adds the squares of `rows` up for each column, and counts the numbers other than 0.
-pub struct SumSquares<'a, T> {
+/// Adds the roots of the sizes of `rows` up for each column, and counts the numbers other than 0.
+pub struct SumRoots<'a, T> {
     /// n numbers a row
     pub rows: &'a [T],
     /// n sums
-    pub squares: &'a mut [T],
+    pub roots: &'a mut [T],
     /// n counts
     pub counts: &'a mut [T],
 }
 
-impl<T: Real> Kernel<T> for SumSquares<'_, T> {
+impl<T: Real> Kernel<T> for SumRoots<'_, T> {
     type Output = ();
 
     #[inline(always)]
     fn size(&self) -> usize {
-        self.squares.len()
+        self.roots.len()
     }
 
     #[inline(always)]
     fn run<V: Vector<T>, const GROUP: usize>(self) {
-        let n = self.squares.len();
+        let n = self.roots.len();
         if GROUP < 8 && n <= FEW {
-            with_few!(n, sum_few::<T>(self.rows, self.squares, self.counts));
+            with_few!(n, sum_few::<T>(self.rows, self.roots, self.counts));
         } else {
-            sum_many::<T, V>(self.rows, self.squares, self.counts);
+            sum_many::<T, V>(self.rows, self.roots, self.counts);
         }
     }
 }
@@ -95,37 +95,37 @@ pub fn one_unless_zero<T: Real, A: Lane<T>>(x: A) -> A {
 }
 
 #[inline(always)]
-fn sum_few<T: Real, const N: usize>(rows: &[T], squares: &mut [T], counts: &mut [T]) {
-    let (Some(to_squares), Some(to_counts)) =
-        (squares.first_chunk_mut::<N>(), counts.first_chunk_mut::<N>())
+fn sum_few<T: Real, const N: usize>(rows: &[T], roots: &mut [T], counts: &mut [T]) {
+    let (Some(to_roots), Some(to_counts)) =
+        (roots.first_chunk_mut::<N>(), counts.first_chunk_mut::<N>())
     else {
         return;
     };
-    let (mut squares, mut counts) = (*to_squares, *to_counts);
+    let (mut roots, mut counts) = (*to_roots, *to_counts);
     for row in rows.as_chunks::<N>().0 {
         for i in 0..N {
-            squares[i] += row[i] * row[i];
+            roots[i] += row[i].abs().sqrt();
             counts[i] += one_unless_zero(row[i]);
         }
     }
-    (*to_squares, *to_counts) = (squares, counts);
+    (*to_roots, *to_counts) = (roots, counts);
 }
 
 #[inline(always)]
-fn sum_many<T: Real, V: Vector<T>>(rows: &[T], squares: &mut [T], counts: &mut [T]) {
-    let n = squares.len();
-    let (squares, squares_rest) = T::chunks_mut(squares);
+fn sum_many<T: Real, V: Vector<T>>(rows: &[T], roots: &mut [T], counts: &mut [T]) {
+    let n = roots.len();
+    let (roots, roots_rest) = T::chunks_mut(roots);
     let (counts, counts_rest) = T::chunks_mut(counts);
     for row in rows.chunks_exact(n) {
         let (row, row_rest) = T::chunks(row);
-        for i in 0..row.len().min(squares.len()).min(counts.len()) {
+        for i in 0..row.len().min(roots.len()).min(counts.len()) {
             let x = V::load(&row[i]);
-            (V::load(&squares[i]) + x * x).store(&mut squares[i]);
+            (V::load(&roots[i]) + x.abs().sqrt()).store(&mut roots[i]);
             (V::load(&counts[i]) + one_unless_zero(x)).store(&mut counts[i]);
         }
-        for i in 0..row_rest.len().min(squares_rest.len()).min(counts_rest.len()) {
+        for i in 0..row_rest.len().min(roots_rest.len()).min(counts_rest.len()) {
             let x = row_rest[i];
-            squares_rest[i] += x * x;
+            roots_rest[i] += x.abs().sqrt();
             counts_rest[i] += one_unless_zero(x);
         }
     }

@@ -33,7 +33,7 @@ pub(crate) fn covariance<T: Number>(estimator: &AnyEstimator<T>) -> Result<Array
 }
 
 /// The largest and the smallest element of D, in the units of the user.
-pub(super) fn extremes<T: Number>(estimator: &AnyEstimator<T>) -> (f64, f64) {
+pub(crate) fn extremes<T: Number>(estimator: &AnyEstimator<T>) -> (f64, f64) {
     let units = estimator.reciprocal_units();
     let elements = estimator.factor().diagonal_elements().iter().enumerate();
     elements.fold((0.0, f64::INFINITY), |(largest, smallest), (i, &d)| {

@@ -4,7 +4,7 @@ mod accessors;
 mod health;
 pub(crate) mod record;
 
-pub(crate) use accessors::{covariance, units};
+pub(crate) use accessors::{covariance, extremes, units};
 pub use health::Health;
 pub use record::{GoOn, Missing, Run};
 
@@ -15,7 +15,7 @@ use crate::number::{each, make, ByType, Family, Number};
 use crate::number::{Array, NumberType, View};
 use crate::settings::Settings;
 use crate::update::{update, Update};
-use accessors::{extremes, factor, predict, theta};
+use accessors::{factor, predict, theta};
 use forgetting::saved::number_type;
 use forgetting::{AnyEstimator, Memory};
 

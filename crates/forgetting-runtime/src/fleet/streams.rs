@@ -4,6 +4,7 @@
 use super::health::StreamHealth;
 use super::{estimators, threads};
 use crate::configure::check_copies;
+use crate::estimator::extremes;
 use crate::number::{Array, Elements, Number};
 use forgetting::fleet::{check_kind, Fleet, Outputs, Part, Samples};
 use forgetting::rates::{AnyRate, Constant, Rate};
@@ -189,6 +190,14 @@ impl<T: Number> Streams<T> {
         }
         let limit = |i| T::from_f64(AnyEstimator::<T>::WINDUP) * self.first_largest(i);
         let windup = largest.iter().enumerate().map(|(i, &d)| d > limit(i)).collect();
+        if self.fresh().prior().is_of_data() {
+            // in the units of the user
+            let ends = largest.iter_mut().zip(&mut smallest).enumerate();
+            for (i, (largest, smallest)) in ends {
+                let (most, least) = extremes(&self.get(i));
+                (*largest, *smallest) = (T::from_f64(most), T::from_f64(least));
+            }
+        }
         StreamHealth {
             windup: Array { shape: vec![count], elements: Elements::Bool(windup) },
             samples: Array { shape: vec![count], elements: Elements::I64(self.samples()) },

@@ -7,7 +7,7 @@ use crate::memory::state::Visitor;
 use crate::memory::Memory;
 use forgetting_kernels::Real;
 
-/// P₀ of each parameter where nothing is known of it, in units of the root mean square of its regressor.
+/// P₀ of each parameter where nothing is known of it, in units of the typical size of its regressor.
 ///
 /// It weighs a hundred-thousandth of one sample: too little to be seen in an estimate, and enough to
 /// keep what is not yet known from ruining the first predictions.

@@ -5,7 +5,7 @@ use crate::kernel::units::one_unless_zero;
 
 /// The units of the streams of a block from `lane` on.
 pub struct Block<'a, T: Real> {
-    /// 1/s, Σ x² and how many x there were other than 0: n lines each
+    /// 1/s, Σ √|x| and how many x there were other than 0: n lines each
     pub lines: &'a mut [Line<T>],
     pub lane: usize,
 }
@@ -38,8 +38,8 @@ impl<T: Real> Block<'_, T> {
         };
         let measured = codes.at_most(A::splat(T::ZERO));
         for i in 0..N {
-            let (square, count): (A, A) = (self.read(N + i), self.read(2 * N + i));
-            self.write(N + i, A::select(measured, square + x[i] * x[i], square));
+            let (root, count): (A, A) = (self.read(N + i), self.read(2 * N + i));
+            self.write(N + i, A::select(measured, root + x[i].abs().sqrt(), root));
             let more = count + one_unless_zero(x[i]);
             self.write(2 * N + i, A::select(measured, more, count));
         }
