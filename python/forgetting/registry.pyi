@@ -1249,7 +1249,7 @@ class RandomWalk(Rule):
     - Q is per sample and in units of P: the variance by which θ moves, over the variance of the
       measurement noise (Γ).
     - Use it when that ratio is known: the estimate is then the optimal one. With P₀ that follows the
-      data, Q counts in units of the root mean square of each regressor. Use the cyclic schedule where n
+      data, Q counts in units of the typical size of each regressor. Use the cyclic schedule where n
       is large and θ moves little in n samples: without data a whole cycle adds what r samples add, and
       within one P is off by less than that.
 

@@ -51,7 +51,7 @@ def test_threads_that_share_an_estimator_wait_for_each_other() -> None:
     y = phi.sum(axis=1)
     together(
         often(lambda: est.run(phi, y)),
-        often(lambda: est.update([1.0, 2.0, 3.0], 4.0), 2000),
+        often(lambda: est.update([1.0, 2.0, 3.0], 6.0), 2000),
         often(lambda: pickle.loads(pickle.dumps(est))),
         often(lambda: copy.deepcopy(est)),
         often(lambda: (est.theta, est.covariance, est.samples, est.factor(), est.health())),

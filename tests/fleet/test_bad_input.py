@@ -101,8 +101,8 @@ STRANGERS = [
     (fg.RLS(3, rule="exponential"), "the rule of its fleet"),
     (fg.RLS(3, rule=fg.Subspace(0.99, threshold=0.5)), "the rule of its fleet"),
     (fg.RLS(3, rule=fg.Subspace(fg.Fortescue())), "the rate of its fleet"),
-    (fg.RLS(3, weighting="huber"), "the weighting of its fleet"),
-    (fg.RLS(3, gate=fg.MinimumInformation()), "the gate of its fleet"),
+    (fg.RLS(3, rule="subspace", weighting="huber"), "the weighting of its fleet"),
+    (fg.RLS(3, rule="subspace", gate=fg.MinimumInformation()), "the gate of its fleet"),
     (fg.RLS(3, monitor=True), "not monitored"),
     (fg.RLS(3, dtype="float32"), "the dtype of its fleet"),
 ]

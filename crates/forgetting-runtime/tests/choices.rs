@@ -28,11 +28,12 @@ fn nothing_said_is_the_default() {
     let description = estimator.describe();
     let names = [&description.rule, &description.rate, &description.weighting, &description.gate]
         .map(|choice| choice.name.as_str());
-    assert_eq!(names, ["subspace", "constant", "equal", "open"]);
-    assert_eq!(number(&description.rule, "threshold"), 1e-6);
-    assert_eq!(number(&description.rate, "forgetting_factor"), 0.99);
+    assert_eq!(names, ["random_walk", "constant", "equal", "open"]);
+    assert_eq!(number(&description.rule, "process_noise"), 0.003);
+    assert_eq!(number(&description.rule, "bound"), 1e5);
+    assert_eq!(number(&description.rate, "forgetting_factor"), 1.0);
     assert_eq!(estimator.number_type().name(), "float64");
-    assert_eq!(estimator.extremes(), (100.0, 100.0));
+    assert_eq!(estimator.extremes(), (1e5, 1e5));
     assert!(estimator.health().is_none() && !estimator.calls_function());
 }
 

@@ -118,8 +118,9 @@ fn a_rate_sees_the_evidence_and_a_gate_holds() {
     let expected = Evidence {
         error: Innovation::Scalar(30.0),
         squared_error: 900.0,
-        leverage: 500.0,
-        normalized_error: 900.0 / 501.0,
+        // φ in units of its first values: 1 and 1
+        leverage: 2e5,
+        normalized_error: 900.0 / 200_001.0,
         samples: 0,
         parameters: 2,
         rows: 1,
@@ -134,7 +135,7 @@ fn a_failure_refuses_the_sample_and_changes_nothing() {
         let mut estimator = Estimator::new(&settings).unwrap();
         let error = estimator.update([1.0, 0.0][..].into(), [7.0][..].into(), None).unwrap_err();
         assert_eq!((error.kind(), error), (Kind::Function, Error::Core(FAILED)));
-        assert_eq!((estimator.samples(), estimator.extremes()), (0, (100.0, 100.0)));
+        assert_eq!((estimator.samples(), estimator.extremes()), (0, (1e5, 1e5)));
     }
 }
 

@@ -114,8 +114,8 @@ fn a_refused_record_leaves_all_as_it_was() {
     assert!(matches!(error, Error::Sample { sample: 33, error: CoreError::Range { .. } }));
     assert_eq!(error.kind(), Kind::Range);
     let error = refused(&good[1..], &[SAMPLES - 1], &["theta"]);
-    let text = format!("y has shape [{}], expected ({SAMPLES}, 1, 1) or less ones", SAMPLES - 1);
-    assert_eq!(error.to_string(), text);
+    let text = format!("y has shape ({},), expected ({SAMPLES},), ", SAMPLES - 1);
+    assert!(error.to_string().starts_with(&text), "{error}");
     let error = refused(&good, &[SAMPLES], &["theta", "thetas"]);
     assert!(error.to_string().starts_with("outputs has \"thetas\", allowed: theta, error, "));
 }

@@ -70,6 +70,6 @@ fn a_fleet_goes_on_as_if_it_had_not_been_saved() {
             assert_eq!(restored.state(stream).unwrap(), fleet.state(stream).unwrap());
         }
         let error = Fleet::from_states(&states[0], &[&states[0], b"no state"]).err().unwrap();
-        assert_eq!(error.to_string(), "stream 1: state: it is not a saved estimator");
+        assert_eq!(error.to_string(), "stream 1: state: it is truncated");
     }
 }

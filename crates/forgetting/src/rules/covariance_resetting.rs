@@ -211,6 +211,9 @@ impl<M: Memory, F: Forgetting<M>> Forgetting<M> for CovarianceResetting<M, F> {
         let inner = self.rule.bounds(&Constants { initial, ..*constants });
         let Bounds { below, above } = inner.with_initial(initial);
         let below = below.or_else(|| self.bound_below(constants, (initial.0, least)));
+        // after the sample of a reset, P is what that sample leaves of P_∞
+        let reset = constants.least_after(least).unwrap_or(0.0);
+        let below = below.and_then(|below| positive(below.min(reset)));
         Bounds { below, above }
     }
 
