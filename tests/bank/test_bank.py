@@ -213,8 +213,8 @@ def test_parameters_are_as_good_as_those_of_the_best_member(kind, excitation):
 
         of_bank += off(fg.Bank(4).run(phi, y))
         of_members += [off(fg.RLS(4, rule=walk(noise)).run(phi, y)) for noise in WALKS]
-    # where nothing changes and all is rich, members are so alike that a while passes before the fastest
-    # of the slow ones are given up
+    # where nothing changes and all is rich, the slow members are so alike that a while passes
+    # before the fastest of them are given up
     most = 1.35 if (kind, excitation) == ("constant", "rich") else 1.1
     assert np.sqrt(of_bank) < most * np.sqrt(of_members.min())
 
