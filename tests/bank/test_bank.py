@@ -264,3 +264,11 @@ def test_rows_targets_noise_gates_and_missing_samples():
     gated = fg.Bank(3, gate=fg.MinimumInformation(1e-3), weighting="huber")
     held = gated.run(phi[:, 0] * (np.arange(300) % 2)[:, None], phi[:, 0] @ theta[:, 0])
     assert held.skipped_count == 150
+
+
+def test_the_memory_of_exponential_forgetting_is_that_of_its_factor():
+    random = np.random.default_rng(2)
+    phi = random.normal(size=(3000, 3))
+    bank = fg.Bank(3, [fg.Exponential(0.98)])
+    bank.run(phi, phi.sum(axis=1))
+    assert bank.memory == pytest.approx(50.0, rel=0.05)

@@ -203,8 +203,8 @@ impl Bank {
         output(py, self.bank.lock(py)?.weights())
     }
 
-    /// Over how many samples the bank remembers: the number n of parameters over the mean leverage of
-    /// each member, mixed.
+    /// Over how many samples the bank remembers: n over the mean of s / (1 + s), with s the leverage,
+    /// of each member, mixed. With exponential forgetting that is 1 / (1 - lambda).
     #[getter]
     fn memory(&self, py: Python<'_>) -> PyResult<f64> {
         Ok(self.bank.lock(py)?.memory())

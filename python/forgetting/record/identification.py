@@ -90,8 +90,7 @@ class Identification(Counts):
         memory = self.trace.memory[-1]
         length = f"{memory:.3g} samples" if np.isfinite(memory) else "the whole record"
         return (
-            f"bank of {self.trace.weights.shape[1]} members, at the end with a memory of {length}; "
-            f"most believed: {self.rule!r}"
+            f"bank of {self.trace.weights.shape[1]} members, at the end with a memory of {length}"
         )
 
     def final(self) -> list[tuple[str, str, float, float]]:
@@ -105,6 +104,8 @@ class Identification(Counts):
     @cached_property
     def guarantee(self) -> Guarantee:
         """Bounds of P that the rule guarantees, for regressors and rates as in this record."""
+        if self.trace.weights is not None:
+            return Guarantee(None, None, bounded=True)
         used = self.trace.skipped == USED
         factors = self.trace.forgetting_factor[used]
         squares = np.square(self.samples.phi[used] / self.units).sum(axis=1)

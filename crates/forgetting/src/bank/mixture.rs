@@ -10,15 +10,15 @@ use forgetting_kernels::Kernels;
 
 /// Samples a parameter before members are weighed.
 const WARM_UP: u64 = 3;
-/// Samples over which the noise variance and the members' leverages are averaged.
+/// Samples over which the noise variance and the members' parts are averaged.
 const MEMORY: f64 = 1000.0;
 
 /// w, and how the members have been doing.
 #[derive(Clone, Debug)]
 pub(super) struct Mixture<T> {
     weights: Vec<T>,
-    /// mean leverage of each member
-    leverages: Vec<T>,
+    /// mean of h = s/(1 + s) of each member, s the leverage
+    parts: Vec<T>,
     /// of the whitened errors of the mixture, each over 1 + s
     noise_variance: T,
     /// samples used
@@ -31,7 +31,7 @@ impl<T: Kernels> Mixture<T> {
         let equal = T::ONE / T::from_f64(count as f64);
         Self {
             weights: alloc::vec![equal; count],
-            leverages: alloc::vec![T::ZERO; count],
+            parts: alloc::vec![T::ZERO; count],
             noise_variance: T::ZERO,
             samples: 0,
         }
@@ -49,11 +49,11 @@ impl<T: Kernels> Mixture<T> {
         self.noise_variance
     }
 
-    /// n/s̄_i of each member, infinite before it has taken a sample, mixed.
+    /// n/h̄_i of each member, infinite before it has taken a sample, mixed.
     pub fn memory(&self, parameters: usize) -> T {
         let n = T::from_f64(parameters as f64);
-        let parts = self.weights.iter().zip(&self.leverages).filter(|(&w, _)| w > T::ZERO);
-        parts.fold(T::ZERO, |sum, (&w, &s)| sum + w * (n / s))
+        let parts = self.weights.iter().zip(&self.parts).filter(|(&w, _)| w > T::ZERO);
+        parts.fold(T::ZERO, |sum, (&w, &h)| sum + w * (n / h))
     }
 
     /// Σ w_i x_i over the members that are awake, with what the others would have had shared out.
@@ -145,11 +145,13 @@ impl<T: Kernels> Mixture<T> {
     fn note(&mut self, forecasts: &Forecasts<'_, T>, leverage: T) {
         self.samples += 1;
         let share = T::ONE / T::from_f64(self.samples as f64).min(T::from_f64(MEMORY));
-        let count = self.leverages.len();
+        let count = self.parts.len();
         let (leverages, awake) = (&forecasts.leverages[..count], &forecasts.awake[..count]);
         for i in 0..count {
-            let step = share * (leverages[i].min(T::CEILING) - self.leverages[i]);
-            self.leverages[i] += if awake[i] { step } else { T::ZERO };
+            // what the sample decides of its own fit: at most 1, also where nothing is known yet
+            let part = leverages[i] / (T::ONE + leverages[i]);
+            let step = share * (part - self.parts[i]);
+            self.parts[i] += if awake[i] { step } else { T::ZERO };
         }
         let mut squared = T::ZERO;
         for &e in forecasts.mixed {
@@ -213,14 +215,14 @@ fn total<T: Kernels>(parts: [T; 4]) -> T {
 impl<T: Kernels> State<T> for Mixture<T> {
     fn visit(&mut self, visitor: &mut dyn Visitor<T>) {
         visitor.reals(&mut self.weights);
-        visitor.reals(&mut self.leverages);
+        visitor.reals(&mut self.parts);
         visitor.reals(core::slice::from_mut(&mut self.noise_variance));
         visitor.whole(&mut self.samples);
     }
 
     fn is_sound(&self) -> bool {
         let sum = self.weights.iter().fold(T::ZERO, |sum, &w| sum + w);
-        let numbers = self.weights.iter().chain(&self.leverages).chain([&self.noise_variance]);
+        let numbers = self.weights.iter().chain(&self.parts).chain([&self.noise_variance]);
         numbers.into_iter().all(|x| *x >= T::ZERO && x.is_finite())
             && (sum - T::ONE).abs() <= T::from_f64(1e-3)
             && self.samples <= MOST_SAMPLES

@@ -3,7 +3,7 @@
 //! ```text
 //! φθ = Σ w_i φθ_i                                      prediction; θ = Σ w_i θ_i
 //! P  = Σ w_i (P_i + (θ_i − θ)(θ_i − θ)ᵀ/σ²)            covariance, with what the members disagree about
-//! N  = Σ w_i n/s̄_i                                     memory in samples, s̄_i the mean leverage of member i
+//! N  = Σ w_i n/h̄_i                                     memory in samples, h̄_i the mean of s/(1 + s) of member i
 //! ```
 //!
 //! The weights w are those of a mixer ([`crate::mixers`]), which learns from the errors of the members.

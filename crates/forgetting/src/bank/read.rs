@@ -44,7 +44,7 @@ impl<T: Kernels> Bank<T> {
         self.state.mixture.weights()
     }
 
-    /// Over how many samples the mixture remembers: Σ w_i n/s̄_i.
+    /// Over how many samples the mixture remembers: Σ w_i n/h̄_i.
     pub fn memory_in_samples(&self) -> T {
         self.state.mixture.memory(self.memory.parameters())
     }
