@@ -51,7 +51,7 @@ LAYERS: dict[str, tuple[str, ...]] = {
         "arrays",
         "callable",
         "choice",
-        "settings registry run update shared",
+        "settings registry run update bank_update shared",
         "window",
         "rls",
         "fleet bank",

@@ -1,6 +1,7 @@
 //! The class `Bank`.
 
-use crate::arrays::{innovation, output, output_or_float, Input};
+use crate::arrays::{output, output_or_float, Input};
+use crate::bank_update::BankUpdate;
 use crate::choice::{read, read_forgetting_factor, write};
 use crate::errors::{heed_signals, invalid, raise};
 use crate::run::Run;
@@ -56,65 +57,6 @@ pub struct Bank {
     /// n, p and m
     sizes: [usize; 3],
     number_type: NumberType,
-}
-
-/// What one sample did: returned by `Bank.update`.
-///
-/// Attributes
-/// ----------
-/// error : float or ndarray
-///     y - phi @ theta with the theta of before, in units of y; (rows,) or (rows, targets).
-/// leverage : float
-///     Variance of the prediction in units of the noise variance, without what the members disagree
-///     about.
-/// forgetting_factor : float
-///     That of the members, mixed, in (0, 1].
-/// skipped : str or None
-///     Why the sample was left out, if all members left it out.
-/// windup : bool
-///     Whether the covariance of every member that is believed has wound up.
-/// asleep : int
-///     Members that could not take the sample.
-#[pyclass(frozen, module = "forgetting")]
-pub struct BankUpdate(forgetting_runtime::BankUpdate);
-
-#[pymethods]
-impl BankUpdate {
-    #[getter]
-    fn error<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        innovation(py, &self.0.error)
-    }
-
-    #[getter]
-    fn leverage(&self) -> f64 {
-        self.0.leverage
-    }
-
-    #[getter]
-    fn forgetting_factor(&self) -> f64 {
-        self.0.forgetting_factor
-    }
-
-    #[getter]
-    fn skipped(&self) -> Option<&'static str> {
-        self.0.skipped.map(|reason| reason.word())
-    }
-
-    #[getter]
-    fn windup(&self) -> bool {
-        self.0.windup
-    }
-
-    #[getter]
-    fn asleep(&self) -> usize {
-        self.0.asleep
-    }
-
-    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
-        let (error, leverage) = (self.error(py)?.repr()?, self.0.leverage);
-        let skipped = self.skipped().map_or("None".into(), |reason| format!("{reason:?}"));
-        Ok(format!("BankUpdate(error={error}, leverage={leverage}, skipped={skipped})"))
-    }
 }
 
 #[pymethods]

@@ -3,6 +3,7 @@
 
 mod arrays;
 mod bank;
+mod bank_update;
 mod callable;
 mod choice;
 mod errors;
@@ -21,7 +22,7 @@ use pyo3::prelude::*;
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<rls::Rls>()?;
     module.add_class::<bank::Bank>()?;
-    module.add_class::<bank::BankUpdate>()?;
+    module.add_class::<bank_update::BankUpdate>()?;
     module.add_class::<fleet::Fleet>()?;
     module.add_class::<fleet::FleetUpdate>()?;
     module.add_class::<update::Update>()?;

@@ -9,7 +9,8 @@ use forgetting::{Dynamic, DIFFUSE};
 /// The rule when none is named and P₀ is given, in units of the user.
 const RULE: &str = "subspace";
 /// Process noise of the rule when neither it nor P₀ is given: parameters that are remembered over some
-/// twenty samples each. On open records it predicts best of what one setting can do for all of them.
+/// twenty samples each. On open records a larger one predicts a little better, and a noisy
+/// constant is then followed worse.
 const PROCESS_NOISE: f64 = 3e-3;
 /// λ when none is given, of a rule that uses it.
 const FORGETTING_FACTOR: f64 = 0.99;

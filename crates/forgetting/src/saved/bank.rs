@@ -13,7 +13,7 @@
 
 use super::read::Reader;
 use super::write::Numbers;
-use super::{crc32, AnyEstimator, Error, Vec};
+use super::{crc32, unaltered, AnyEstimator, Error, Vec};
 use crate::bank::Bank;
 use crate::choice::bytes::write as choice;
 use crate::memory::Dynamic;
@@ -91,19 +91,8 @@ pub fn bank_number_type(bytes: &[u8]) -> Result<usize, Error> {
 
 /// The bytes without their check, if they are those of a bank and unaltered.
 fn checked(bytes: &[u8]) -> Result<&[u8], Error> {
-    let refuse = |reason| Err(Error::State { reason });
     if !bytes.starts_with(MARK) {
-        return refuse("it is not a saved bank of estimators");
+        return Err(Error::State { reason: "it is not a saved bank of estimators" });
     }
-    match bytes.get(MARK.len()) {
-        Some(&VERSION) if bytes.len() >= MARK.len() + 5 => {}
-        Some(&version) if version > VERSION => return refuse("it was written by a later version"),
-        _ => return refuse("it is truncated"),
-    }
-    let (body, check) = bytes.split_at(bytes.len() - 4);
-    if crc32(body).to_le_bytes() == check {
-        Ok(body)
-    } else {
-        refuse("it is truncated or altered: the check fails")
-    }
+    unaltered(bytes, VERSION)
 }

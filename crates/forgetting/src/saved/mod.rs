@@ -111,12 +111,19 @@ fn checked(bytes: &[u8]) -> Result<&[u8], Error> {
     if bytes.starts_with(bank::MARK) {
         return refuse("it is a saved bank of estimators, not one estimator");
     }
-    if bytes.len() < MARK.len() || &bytes[..MARK.len()] != MARK {
+    if !bytes.starts_with(MARK) {
         return refuse("it is not a saved estimator");
     }
+    unaltered(bytes, VERSION)
+}
+
+/// The bytes without their check, if they are of no later version than this and unaltered. The version
+/// comes after a mark.
+fn unaltered(bytes: &[u8], latest: u8) -> Result<&[u8], Error> {
+    let refuse = |reason| Err(Error::State { reason });
     match bytes.get(MARK.len()) {
         None => return refuse("it is truncated"),
-        Some(&version) if version == 0 || version > VERSION => {
+        Some(&version) if version == 0 || version > latest => {
             return refuse("it was written by a later version");
         }
         Some(_) => {}
