@@ -46,7 +46,9 @@ def eigenvalues(found: Identification, ax: Axes | None = None) -> Axes:
 
 
 def forgetting_factor(found: Identification, ax: Axes | None = None) -> Axes:
-    """Draw the forgetting factor of each sample; samples that were left out are marked."""
+    """Draw the forgetting factor of each sample, or the memory of a bank; marks what is left out."""
+    if found.trace.memory is not None:
+        return memory(found, ax)
     ax = axes_or_new(ax)
     x, label = timeline(found)
     used = np.where(found.trace.skipped == USED, found.trace.forgetting_factor, np.nan)
@@ -65,6 +67,18 @@ def forgetting_factor(found: Identification, ax: Axes | None = None) -> Axes:
     ax.set_ylabel("forgetting factor")
     label_time(ax, x, label)
     legend_above(ax, 2)
+    return ax
+
+
+def memory(found: Identification, ax: Axes | None = None) -> Axes:
+    """Draw over how many samples a bank remembers, after each sample."""
+    ax = axes_or_new(ax)
+    x, label = timeline(found)
+    samples = np.zeros(0) if found.trace.memory is None else found.trace.memory
+    ax.plot(*thinning.line(x, np.where(np.isfinite(samples), samples, np.nan)), color=GREEN, lw=1.6)
+    ax.set_yscale("log")
+    ax.set_ylabel("memory (samples)")
+    label_time(ax, x, label)
     return ax
 
 

@@ -140,7 +140,9 @@ def memory(found: Identification) -> Block:
     """Forgetting factor."""
     figure, ax = plt.subplots(figsize=(9.4, 1.9), layout="constrained")
     plot.forgetting_factor(found, ax)
-    return Block("Forgetting", pictures=[inline(figure, "forgetting factor over time")])
+    return Block(
+        "Forgetting", pictures=[inline(figure, "forgetting factor, or memory of a bank, over time")]
+    )
 
 
 def notes() -> Block:
