@@ -77,13 +77,20 @@ def test_the_page_has_its_parts(found, tmp_path):
         "Directions of 4 that the last",
         "Alarms and samples left out",
         "eigenvalues of P",
-        "forgetting factor",
+        "memory (samples)",
     ):
         assert part in text, part
     assert all(verdict in text for verdict in found.verdicts)
     # One of signals and one of parameters for each output, one of trust, one of forgetting.
     assert html.count("<svg ") == 6
     assert "prefers-color-scheme: dark" in html
+
+
+def test_the_page_of_a_rule_shows_its_forgetting_factor(plant, tmp_path):
+    found = identify(plant, output="y1", input="u1", arx=(1, 1, 0), rule="exponential")
+    save(found, tmp_path / "report.html")
+    text = " ".join(parsed(tmp_path / "report.html").text)
+    assert "forgetting factor" in text and "memory (samples)" not in text
 
 
 def test_names_are_escaped(found, tmp_path):

@@ -46,7 +46,7 @@ def eigenvalues(found: Identification, ax: Axes | None = None) -> Axes:
 
 
 def forgetting_factor(found: Identification, ax: Axes | None = None) -> Axes:
-    """Draw the forgetting factor of each sample, or the memory of a bank; marks what is left out."""
+    """Draw the forgetting factor of each sample, or a bank's memory; marks what is left out."""
     if found.trace.memory is not None:
         return memory(found, ax)
     ax = axes_or_new(ax)
