@@ -73,12 +73,15 @@ def constructor(kind: type[choices.Choice]) -> Iterator[str]:
     entries = {entry["name"]: parameter(entry, kind) for entry in about["parameters"]}
     if about.get("forgetting_factor"):
         entries["forgetting_factor"] = "forgetting_factor: ForgettingFactor = 0.99"
+        entries["half_life"] = "half_life: Any = None"
     if not order:
         yield "    def __init__(self) -> None: ..."
         return
     yield "    def __init__("
     yield "        self,"
     for name in order:
+        if name == "half_life":
+            yield "        *,"
         yield f"        {entries[name]},"
     yield "    ) -> None: ..."
 

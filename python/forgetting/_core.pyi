@@ -4,10 +4,10 @@ from collections.abc import Callable, Sequence
 from typing import Any, Literal, final
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike, DTypeLike, NDArray
 from typing_extensions import disjoint_base
 
-from .choices import Gate, Mixer, Rule, Weighting
+from .choices import Gate, Mixer, Rate, Rule, Weighting
 from .fleet import FleetHealth
 from .health import Health
 
@@ -126,13 +126,14 @@ class RLS:
         parameters: int,
         *,
         rule: str | Rule | None = None,
+        forgetting_factor: float | Rate | None = None,
         weighting: str | Weighting | None = None,
         gate: str | Gate | Callable[[Evidence], str] | None = None,
         rows: int = 1,
         targets: int = 1,
         initial_covariance: ArrayLike | None = None,
         initial_theta: ArrayLike | None = None,
-        dtype: str = "float64",
+        dtype: DTypeLike = "float64",
         monitor: bool = False,
     ) -> RLS: ...
     @property
@@ -163,14 +164,24 @@ class RLS:
     def watched(self) -> dict[str, Any] | None: ...
     def describe(self) -> dict[str, dict[str, Any]]: ...
     def predict(self, phi: ArrayLike) -> Any: ...
-    def update(self, phi: ArrayLike, y: ArrayLike, gamma: ArrayLike | None = None) -> Update: ...
+    def update(
+        self,
+        phi: ArrayLike,
+        y: ArrayLike,
+        gamma: ArrayLike | None = None,
+        *,
+        elapsed: Any = None,
+        missing: Literal["error", "skip"] = "error",
+    ) -> Update: ...
     def run(
         self,
         phi: ArrayLike,
         y: ArrayLike,
         gamma: ArrayLike | None = None,
-        outputs: Sequence[str] | None = None,
+        outputs: str | Sequence[str] | None = None,
         missing: Literal["error", "skip"] = "error",
+        *,
+        time: ArrayLike | None = None,
     ) -> Run: ...
     def reset(self) -> None: ...
     def to_bytes(self) -> bytes: ...
@@ -209,7 +220,7 @@ class Bank:
         targets: int = 1,
         initial_covariance: ArrayLike | None = None,
         initial_theta: ArrayLike | None = None,
-        dtype: str = "float64",
+        dtype: DTypeLike = "float64",
     ) -> Bank: ...
     @property
     def parameters(self) -> int: ...
@@ -238,15 +249,23 @@ class Bank:
     def describe(self) -> dict[str, Any]: ...
     def predict(self, phi: ArrayLike) -> Any: ...
     def update(
-        self, phi: ArrayLike, y: ArrayLike, gamma: ArrayLike | None = None
+        self,
+        phi: ArrayLike,
+        y: ArrayLike,
+        gamma: ArrayLike | None = None,
+        *,
+        elapsed: Any = None,
+        missing: Literal["error", "skip"] = "error",
     ) -> BankUpdate: ...
     def run(
         self,
         phi: ArrayLike,
         y: ArrayLike,
         gamma: ArrayLike | None = None,
-        outputs: Sequence[str] | None = None,
+        outputs: str | Sequence[str] | None = None,
         missing: Literal["error", "skip"] = "error",
+        *,
+        time: ArrayLike | None = None,
     ) -> Run: ...
     def reset(self) -> None: ...
     def to_bytes(self) -> bytes: ...
@@ -280,7 +299,7 @@ class Fleet:
         gate: str | Gate | None = None,
         initial_covariance: ArrayLike | None = None,
         initial_theta: ArrayLike | None = None,
-        dtype: str = "float64",
+        dtype: DTypeLike = "float64",
         threads: int | None = None,
     ) -> Fleet: ...
     @property
@@ -311,7 +330,9 @@ class Fleet:
         phi: ArrayLike,
         y: ArrayLike,
         mask: ArrayLike | None = None,
-        outputs: Sequence[str] | None = None,
+        outputs: str | Sequence[str] | None = None,
+        *,
+        elapsed: ArrayLike | None = None,
     ) -> FleetUpdate: ...
     def append(self, more: int | Fleet) -> None: ...
     def reset(self, mask: ArrayLike | None = None) -> None: ...

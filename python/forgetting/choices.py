@@ -25,6 +25,7 @@ from typing import Any, ClassVar, TypeAlias
 import numpy as np
 
 from . import _core
+from .words.duration import seconds_of
 
 ForgettingFactor: TypeAlias = "float | Rate | str | Callable[[_core.Evidence], float]"
 
@@ -38,6 +39,8 @@ class Choice:
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
         bound = inspect.signature(type(self)).bind(*arguments, **named)
+        if {"forgetting_factor", "half_life"} <= bound.arguments.keys():
+            raise _core.InvalidInput("forgetting_factor and half_life are given: allowed is one")
         bound.apply_defaults()
         values = dict(bound.arguments)
         for entry in self.about["parameters"]:
@@ -84,7 +87,9 @@ class Rule(Choice):
     ----------
     forgetting_factor : float or Rate or None
         How much to forget; None for a rule that does not use it. A rule around another rule
-        has that of the other.
+        has that of the other. In its place ``half_life`` may be given: after that time half of the
+        information is left, a number in the unit of the times that come with the samples (in
+        samples if none come), or a text such as "10min", in seconds.
     parameters : dict
         The rule's own parameters.
     """
@@ -92,7 +97,10 @@ class Rule(Choice):
     forgetting_factor: float | Rate | None = None
 
     def _take(self, values: dict[str, Any]) -> None:
+        half_life = values.pop("half_life", None)
         self.forgetting_factor = values.pop("forgetting_factor", None)
+        if half_life is not None:
+            self.forgetting_factor = _factor_of(half_life)
         if "factors" in values and not isinstance(
             self.forgetting_factor, int | float | Rate | None
         ):
@@ -129,6 +137,25 @@ class Mixer(Choice):
     """What weighs the members of a bank; see `forgetting.mixers`."""
 
 
+def _factor_of(half_life: Any) -> Any:
+    """The factor of one unit of time that leaves half of the information after this one: 2^(-1/h).
+
+    Examples
+    --------
+    >>> _factor_of("1s"), _factor_of([1, 2])
+    (0.5, [0.5, 0.7071067811865476])
+    """
+    if isinstance(half_life, list | tuple | np.ndarray):
+        return [_factor_of(each) for each in half_life]
+    try:
+        seconds = seconds_of(half_life)
+    except ValueError as error:
+        raise _core.InvalidInput(f"half_life = {half_life!r}: {error}") from None
+    if not seconds > 0:
+        raise _core.InvalidInput(f"half_life = {half_life!r}, allowed: (0, inf)")
+    return 2.0 ** (-1.0 / seconds)
+
+
 def _as_rate(given: Any) -> Any:
     """A number, or a rate made from what else may stand for a forgetting factor."""
     if isinstance(given, str):
@@ -157,7 +184,11 @@ def _signature(about: Mapping[str, Any]) -> inspect.Signature:
     ]
     if about.get("forgetting_factor"):
         parameters.insert(0, inspect.Parameter("forgetting_factor", kind, default=0.99))
-    required_first = sorted(parameters, key=lambda p: p.default is not inspect.Parameter.empty)
+        last = inspect.Parameter("half_life", inspect.Parameter.KEYWORD_ONLY, default=None)
+        parameters.append(last)
+    required_first = sorted(
+        parameters, key=lambda p: (p.kind, p.default is not inspect.Parameter.empty)
+    )
     return inspect.Signature(required_first)
 
 

@@ -148,6 +148,8 @@ class Component(Rule):
         blocks: ArrayLike = 1.0,
         factors: ArrayLike | None = None,
         schedule: Literal["every_sample", "cyclic"] = "every_sample",
+        *,
+        half_life: Any = None,
     ) -> None: ...
 
 class Constant(Rate):
@@ -347,6 +349,8 @@ class CyclicResetting(Rule):
         self,
         forgetting_factor: ForgettingFactor = 0.99,
         information: ArrayLike = 0.01,
+        *,
+        half_life: Any = None,
     ) -> None: ...
 
 class DataDependent(Rule):
@@ -408,8 +412,8 @@ class DeadZone(Gate):
     | | otherwise | hold, freeze | hold |
 
     The error is whitened by Γ: `width` is in standard deviations of the noise where Γ is its
-    covariance, and in units of y where Γ is not given, which is 1. It is the error itself, not
-    divided by √(1 + φ̄Pφ̄ᵀ) and not weighted.
+    covariance, and in units of y where P₀ is given and Γ is not, which is then 1. It is the error
+    itself, not divided by √(1 + φ̄Pφ̄ᵀ) and not weighted.
 
     - While the model explains the data to within `width`, nothing is forgotten: with hold θ and P
       stay as they are, with freeze P still shrinks as the data say. Neither can wind up.
@@ -418,6 +422,8 @@ class DeadZone(Gate):
       is to learn from the tails only, and slowly.
     - An error that is small by chance holds a sample that would have told much, so that hold
       learns later than it could. Freeze does not.
+    - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
+      until five have told it, every sample passes.
     - Cost: O(p m). State: none.
     - Use it against drift in quiet times, and where the parameters change seldom: `freeze` then
       averages on, and forgets when the model no longer fits.
@@ -467,6 +473,8 @@ class Directional(Rule):
         self,
         forgetting_factor: ForgettingFactor = 0.99,
         threshold: float = 1e-06,
+        *,
+        half_life: Any = None,
     ) -> None: ...
 
 class DynamicModelAveraging(Mixer):
@@ -547,6 +555,8 @@ class Efra(Rule):
         gain: float = 0.5,
         increase: float = 0.005,
         saturation: float = 0.0001,
+        *,
+        half_life: Any = None,
     ) -> None: ...
 
 class Equal(Weighting):
@@ -592,6 +602,8 @@ class ExactGradient(Rate):
     - φ̄ and e are whitened by Γ and weighted: λ does not depend on the units of y. Targets are
       averaged.
     - Should Z or Ψ leave the range of the number type, where P has wound up, both start again at 0.
+    - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
+      until five have told it, errors count as 0.
     - Cost: O(n³/6 + p n²), for the elements of P. State: Z, Ψ and the next λ, n² + m n + 1 numbers.
     - Use it for slow drift when n is small; `gradient` costs nothing beside.
 
@@ -635,6 +647,8 @@ class Exponential(Rule):
     def __init__(
         self,
         forgetting_factor: ForgettingFactor = 0.99,
+        *,
+        half_life: Any = None,
     ) -> None: ...
 
 class ExponentialResetting(Rule):
@@ -667,6 +681,8 @@ class ExponentialResetting(Rule):
         self,
         forgetting_factor: ForgettingFactor = 0.99,
         information: ArrayLike = 0.01,
+        *,
+        half_life: Any = None,
     ) -> None: ...
 
 class FTest(Rate):
@@ -741,6 +757,8 @@ class Fortescue(Rate):
       about N₀ samples, N₀/p with p rows.
     - e is whitened by Γ and clipped by the weighting, so that λ does not depend on the units of y:
       σ² is the variance of the whitened noise, 1 where Γ is the noise covariance.
+    - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
+      until five have told it, errors count as 0.
     - Cost: O(p n²/2 + p² n). State: the next λ.
     - Use it when the noise variance is known and constant; else `noise_power`.
 
@@ -842,6 +860,8 @@ class Gradient(Rate):
       out: `smallest` does its work.
     - e is whitened by Γ and clipped by the weighting: λ does not depend on the units of y. ‖e‖² is
       the sum over the p rows, averaged over targets.
+    - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
+      until five have told it, errors count as 0.
     - Cost: O(1). State: six numbers.
     - Use it for slow, steady drift in noise whose variance is stationary.
 
@@ -883,6 +903,8 @@ class Huber(Weighting):
     - c is in standard deviations of the noise, if Γ is its covariance. With 1.345 the estimate of a
       constant that solves Σ w ē = 0 has 95 % of the efficiency of least squares in Gaussian noise;
       the recursion, of which the gain is 1/Σ w, has 92.3 %.
+    - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
+      until five have told it, w = 1.
     - Cost: O(p m). State: none.
     - Use it when some samples are gross errors. One in φ is not recognized.
 
@@ -940,6 +962,8 @@ class MatrixForgetting(Rule):
         power: int = 1,
         choice: int = 1,
         shift: float = 0.0,
+        *,
+        half_life: Any = None,
     ) -> None: ...
 
 class MinimumInformation(Gate):
@@ -1102,6 +1126,8 @@ class NoisePower(Rate):
       ours.
     - e is whitened by Γ and clipped by the weighting: λ does not depend on the units of y. ‖e‖² is
       the sum over the p rows, averaged over targets.
+    - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
+      until five have told it, errors count as 0.
     - Cost: O(p n²/2) for tr S. State: three averages and the next λ.
     - Use it when the noise is unknown or its variance changes slowly.
 
@@ -1158,6 +1184,8 @@ class ObliqueProjection(Rule):
         self,
         forgetting_factor: ForgettingFactor = 0.99,
         threshold: float = 1e-06,
+        *,
+        half_life: Any = None,
     ) -> None: ...
 
 class Open(Gate):
@@ -1199,6 +1227,8 @@ class PredictionError(Rate):
       Small is sensitive.
     - λ_k is in (1 − 1/p, 1] without the clip, and is 1 when the error is 0: it is `largest` < 1
       that bounds the information.
+    - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
+      until five have told it, errors count as 0.
     - Cost: O(p n²/2) for tr S. State: none.
     - Use it when jumps show in the error at once and the noise is small beside them.
 
@@ -1246,6 +1276,8 @@ class RandomWalk(Rule):
     - P bounded below (A3): if Q > 0 and φ is bounded.
     - Cost: O((p + r) n²), r the rank of Q; O(n³) for a full one, at n ≤ 10 with Q = c·I about twice that
       of `exponential`; cyclic O((p + 1) n²). State: P, and whose turn it is.
+    - Where the time Δt between samples is given, Q is per unit of it: κ^Δt and (1 − κ^Δt)/(1 − κ) Q, or
+      Δt Q without a bound, so that gaps without data add up.
     - Q is per sample and in units of P: the variance by which θ moves, over the variance of the
       measurement noise (Γ).
     - Use it when that ratio is known: the estimate is then the optimal one. With P₀ that follows the
@@ -1312,6 +1344,8 @@ class Restricted(Rule):
     def __init__(
         self,
         forgetting_factor: ForgettingFactor = 0.99,
+        *,
+        half_life: Any = None,
     ) -> None: ...
 
 class RmsRatio(Rate):
@@ -1421,6 +1455,8 @@ class Stabilised(Rule):
         self,
         forgetting_factor: ForgettingFactor = 0.99,
         covariance: ArrayLike = 100.0,
+        *,
+        half_life: Any = None,
     ) -> None: ...
 
 class StudentT(Weighting):
@@ -1441,6 +1477,8 @@ class StudentT(Weighting):
     - w is the weight of the maximum likelihood estimate, but never above 1: that would trust a
       sample more than its Γ says.
     - Rates see the clipped error w ē.
+    - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
+      until five have told it, w = 1.
     - Cost: O(p m). State: none.
     - Use it when gross errors are so large that even a clipped one disturbs; `huber` loses less
       when there are none. After a jump of θ it takes longer to believe.
@@ -1492,6 +1530,8 @@ class Subspace(Rule):
         self,
         forgetting_factor: ForgettingFactor = 0.99,
         threshold: float = 1e-06,
+        *,
+        half_life: Any = None,
     ) -> None: ...
 
 class UnityZone(Rate):
@@ -1514,6 +1554,8 @@ class UnityZone(Rate):
       reaches to three standard deviations of the noise, if Γ is its covariance.
     - e is whitened by Γ and clipped by the weighting: λ does not depend on the units of y. ‖e‖² is
       the sum over the p rows, averaged over targets.
+    - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
+      until five have told it, errors count as 0.
     - Cost: O(1). State: none.
     - Use it for parameters that are constant but for jumps.
 
@@ -1575,4 +1617,6 @@ class VariableDirection(Rule):
         self,
         forgetting_factor: ForgettingFactor = 0.99,
         threshold: float = 1e-06,
+        *,
+        half_life: Any = None,
     ) -> None: ...

@@ -49,5 +49,5 @@ def test_the_intervals_are_those_of_confidence():
     trajectory = Trajectory.from_run(run, phi, initial_covariance=table.START)
     found = confidence(trajectory, errors=run.error, noise_variance=1.0)
     quantile = NormalDist().inv_cdf(0.975)
-    half = quantile * (run.error / run.whitened_innovation)[:, :, np.newaxis]
+    half = quantile * (run.error / run.whitened_innovation)[:, np.newaxis, np.newaxis]
     np.testing.assert_allclose(found.half_width, half, rtol=1e-9)

@@ -51,8 +51,8 @@ def test_leverage_weight_and_innovation_are_those_of_the_sample_as_it_was_used(
         used = run.weight[k] * np.outer(phi[k], phi[k]) / GAMMA
         after = np.linalg.inv(np.linalg.inv(prior) + used)
         assert run.covariance[k] == pytest.approx(after, rel=1e-6, abs=1e-9), k
-        white = run.error[k, 0] / np.sqrt(GAMMA / own * (1 + run.leverage[k]))
-        assert run.whitened_innovation[k, 0] == pytest.approx(white, rel=1e-7)
+        white = run.error[k] / np.sqrt(GAMMA / own * (1 + run.leverage[k]))
+        assert run.whitened_innovation[k] == pytest.approx(white, rel=1e-7)
         if weighting == "equal":
             assert own == pytest.approx(1.0, rel=1e-7)
         changed |= run.weight[k] != 1.0

@@ -49,7 +49,7 @@ def test_the_default_bank_is_mlpol_over_random_walks():
     assert bank.members == [walk(noise) for noise in WALKS]
     run = bank.run(phi, y, outputs=("error", "weights"))
     mixed, weights = mlpol(member_errors(phi, y, bank.members), skip=12)
-    np.testing.assert_allclose(run.error[:, 0], mixed, rtol=1e-6, atol=1e-9)
+    np.testing.assert_allclose(run.error, mixed, rtol=1e-6, atol=1e-9)
     np.testing.assert_allclose(run.weights, weights, atol=1e-6)
 
 
@@ -86,7 +86,7 @@ def test_updates_a_run_and_a_saved_bank_say_the_same(mixer):
     whole, single = fg.Bank(4, mixer=mixer), fg.Bank(4, mixer=mixer)
     run = whole.run(phi, y)
     for k in range(200):
-        assert single.update(phi[k], y[k]).error == run.error[k, 0]
+        assert single.update(phi[k], y[k]).error == run.error[k]
     other = fg.Bank.from_bytes(single.to_bytes())
     assert np.array_equal(other.run(phi[200:], y[200:]).error, run.error[200:])
     assert other.to_bytes() == whole.to_bytes()
@@ -123,7 +123,7 @@ def test_probabilities_follow_bayes():
             continue
         count += 1
         growth = np.array([1 + each.leverage[k] for each in members])
-        square = np.array([each.error[k, 0] ** 2 for each in members]) / growth
+        square = np.array([each.error[k] ** 2 for each in members]) / growth
         logarithm = 0.95 * logarithm
         if count > 1:
             logarithm -= 0.5 * (np.log(variance * growth) + square / variance)
@@ -198,7 +198,7 @@ def systems() -> dict[str, np.ndarray]:
 def test_parameters_are_as_good_as_those_of_the_best_member(kind, excitation):
     steps = systems()[kind]
     of_bank, of_members = 0.0, np.zeros(len(WALKS))
-    for seed in range(5):
+    for seed in range(100):
         random = np.random.default_rng(100 + seed)
         phi = random.normal(size=steps.shape)
         if excitation == "poor":
@@ -215,7 +215,7 @@ def test_parameters_are_as_good_as_those_of_the_best_member(kind, excitation):
         of_members += [off(fg.RLS(4, rule=walk(noise)).run(phi, y)) for noise in WALKS]
     # where nothing changes and all is rich, the slow members are so alike that a while passes
     # before the fastest of them are given up
-    most = 1.35 if (kind, excitation) == ("constant", "rich") else 1.1
+    most = 1.12 if (kind, excitation) == ("constant", "rich") else 1.1
     assert np.sqrt(of_bank) < most * np.sqrt(of_members.min())
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -139,3 +141,70 @@ def test_saved_in_the_middle(name):
     second = fg.RLS.from_bytes(first.to_bytes())
     assert np.array_equal(second.run(phi[137:], y[137:]).error, run.error[137:])
     assert second.to_bytes() == whole.to_bytes()
+
+
+def bank(n: int, rule: fg.Rule | None = None, **choices: Any) -> fg.Bank:
+    return fg.Bank(n, members=rule and [rule], **choices)
+
+
+WEIGHTINGS = [entry["name"] for entry in fg.weightings()]
+RATES = [
+    rate
+    for rate in fg.Rate.__subclasses__()
+    if rate is not fg.Function  # asks for a function
+]
+CHOICES: list[dict[str, Any]] = [
+    *({"rule": fg.Exponential(rate())} for rate in RATES),
+    *({"weighting": name} for name in WEIGHTINGS),
+    {"gate": "dead_zone"},
+    {"gate": fg.DeadZone(1.0, otherwise="freeze"), "weighting": "huber"},
+]
+
+
+@pytest.mark.parametrize("choice", CHOICES, ids=str)
+@pytest.mark.parametrize("make", [fg.RLS, bank])
+def test_units_change_no_prediction_of_a_rate_a_weighting_or_a_gate(make, choice):
+    phi, y = record()
+    plain = errors(make(4, **choice), phi, y)
+    other = errors(make(4, **choice), phi * [1e6, 1e-6, 1e3, 10.0], 1e6 * y) / 1e6
+    assert moved(plain, other) < 1e-6
+    assert moved(plain, errors(make(4, **choice), phi, 1e-5 * y) * 1e5) < 1e-6
+
+
+@pytest.mark.parametrize("make", [fg.RLS, fg.Bank])
+def test_units_change_no_prediction_where_gamma_is_given(make):
+    phi, y = record()
+    noise = 0.01 * (1 + np.arange(len(y)) % 3)
+
+    def predicted(units: Any, unit_of_y: float) -> np.ndarray:
+        est = make(4)
+        samples = zip(phi * units, y * unit_of_y, noise * unit_of_y**2, strict=True)
+        return np.array([est.update(p, v, gamma=g).error for p, v, g in samples]) / unit_of_y
+
+    plain = predicted(1.0, 1.0)
+    for unit_of_y in (1e-6, 1e6):
+        assert moved(plain, predicted([1e6, 1e-6, 1e3, 10.0], unit_of_y)) < 1e-6
+    # the noise is known, so what is known of the parameters is as good as without Γ
+    assert np.std(plain[200:]) < 1.1 * np.std(errors(make(4), phi, y)[200:])
+
+
+def test_robust_weightings_need_no_gamma():
+    """Gross errors in one sample of twenty, in any unit of y: as if the noise were known."""
+    deviations: dict[tuple[str, bool], list[np.ndarray]] = {}
+    for seed in range(20):
+        random = np.random.default_rng(seed)
+        phi, theta = random.normal(size=(2000, 3)), np.array([10.0, -20.0, 30.0])
+        y = phi @ theta + random.normal(size=2000)
+        y += np.where(random.random(2000) < 0.05, 30.0, 0.0) * random.normal(size=2000)
+        unit = 10.0 ** (seed % 7 - 3)
+        for name in ("equal", "huber", "student_t"):
+            est = fg.RLS(3, rule="none", weighting=name)
+            est.run(phi, unit * y)
+            deviations.setdefault((name, False), []).append(est.theta / unit - theta)
+            est = fg.RLS(3, rule="none", weighting=name)
+            est.run(phi, unit * y, gamma=np.full(2000, unit**2))
+            deviations.setdefault((name, True), []).append(est.theta / unit - theta)
+    rms = {key: float(np.sqrt(np.mean(np.square(found)))) for key, found in deviations.items()}
+    for name in ("huber", "student_t"):
+        assert rms[name, False] < 1.5 * rms[name, True]
+        assert rms[name, False] < 0.3 * rms["equal", False]

@@ -95,7 +95,8 @@ def test_shapes_in_and_out():
     single = fg.RLS(3)
     assert isinstance(single.predict([1, 2, 3]), float)
     assert isinstance(single.update([1, 2, 3], 1).error, float)
-    assert single.run(np.ones((5, 3)), np.ones(5)).error.shape == (5, 1)
+    for shape in ((5,), (5, 1), (5, 1, 1)):
+        assert single.run(np.ones((5, 3)), np.ones(shape)).error.shape == shape
 
 
 def test_arrays_of_any_layout_give_the_same_estimate():

@@ -147,5 +147,5 @@ def test_the_prior_covariance_of_a_missing_sample_is_the_covariance():
     assert np.array_equal(run.prior_covariance[0], 8.0 * np.eye(2))
     assert np.array_equal(run.prior_covariance[1], run.covariance[0])
     assert np.allclose(run.prior_covariance[2], 2.0 * run.covariance[1], rtol=1e-15)
-    assert np.isnan(run.whitened_innovation[:, 0]).tolist() == [False, True, False]
+    assert np.isnan(run.whitened_innovation).tolist() == [False, True, False]
     assert run.gate.tolist() == [0, 0, 0]

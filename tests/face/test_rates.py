@@ -76,7 +76,8 @@ def test_factors_are_within_the_limits_and_move(name):
 
 def test_prediction_error_is_the_published_formula():
     phi, y = record(rows=2)
-    est = fg.RLS(3, rule=fg.Exponential(fg.PredictionError(2.0, smallest=0.1)), rows=2)
+    rule = fg.Exponential(fg.PredictionError(2.0, smallest=0.1))
+    est = fg.RLS(3, rule=rule, rows=2, initial_covariance=100.0)
     for p, t in zip(phi, y, strict=True):
         spread = 2.0 + np.trace(p @ est.covariance @ p.T)
         square = np.sum((t[:, 0] - est.predict(p)) ** 2)

@@ -35,6 +35,7 @@ LAYERS: dict[str, tuple[str, ...]] = {
     ),
     "forgetting-runtime": (
         "error",  # what is refused, and how it is said
+        "missing",  # samples of which a number is missing
         "number",  # numbers and arrays as they come and go; the number types
         "shape",  # which shapes fit
         "update",  # one sample
@@ -51,7 +52,7 @@ LAYERS: dict[str, tuple[str, ...]] = {
         "arrays",
         "callable",
         "choice",
-        "settings registry run update bank_update shared",
+        "settings registry run update bank_update shared time",
         "window",
         "rls",
         "fleet bank",

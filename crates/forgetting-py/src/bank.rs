@@ -5,10 +5,13 @@ use crate::bank_update::BankUpdate;
 use crate::choice::{read, read_forgetting_factor, write};
 use crate::errors::{heed_signals, invalid, raise};
 use crate::run::Run;
-use crate::settings::{names, read_choices, read_optional, view, write_description, Whole};
+use crate::settings::{
+    names, read_choices, read_optional, view, write_description, Dtype, Names, Whole,
+};
 use crate::shared::Shared;
+use crate::time::{read_elapsed, read_times, times_input};
 use forgetting_runtime::{size, Bank as Inner, BankSettings, Choice, Member, Missing};
-use forgetting_runtime::{NumberType, Settings};
+use forgetting_runtime::{NumberType, RunOptions, Settings, UpdateOptions};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyType};
 
@@ -35,7 +38,7 @@ use pyo3::types::{PyBytes, PyDict, PyType};
 ///     regressor is measured in units of its typical size so far, and P is 1e5 in these.
 /// initial_theta : (n,) or (n, targets) array, optional
 ///     Estimate before the first sample, together with an initial covariance.
-/// dtype : {"float64", "float32"}
+/// dtype : {"float64", "float32"} or NumPy type
 ///     Type of all numbers.
 ///
 /// Raises
@@ -64,7 +67,7 @@ impl Bank {
     #[new]
     #[pyo3(signature = (parameters, members=None, *, mixer=None, weighting=None, gate=None,
         rows=Whole(1), targets=Whole(1), initial_covariance=None, initial_theta=None,
-        dtype="float64"),
+        dtype=Dtype::DEFAULT),
         text_signature = "(parameters, members=None, *, mixer=None, weighting=None, gate=None, \
         rows=1, targets=1, initial_covariance=None, initial_theta=None, dtype='float64')")]
     #[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
@@ -78,9 +81,9 @@ impl Bank {
         targets: Whole,
         initial_covariance: Option<&Bound<'_, PyAny>>,
         initial_theta: Option<&Bound<'_, PyAny>>,
-        dtype: &str,
+        dtype: Dtype,
     ) -> PyResult<Self> {
-        let number_type = NumberType::named(dtype).map_err(raise)?;
+        let number_type = dtype.0;
         let covariance = read_optional("initial_covariance", initial_covariance, number_type)?;
         let theta = read_optional("initial_theta", initial_theta, number_type)?;
         let common = Settings {
@@ -215,6 +218,12 @@ impl Bank {
     /// y : float, (rows,), (targets,) or (rows, targets) array
     /// gamma : float or (rows, rows) array, optional
     ///     Noise covariance of the sample, positive definite; 1 if not given.
+    /// elapsed : float or duration, optional
+    ///     Time since the last sample, in the unit of time in which forgetting is stated (a duration
+    ///     counts in seconds); 1 if not given. A forgetting factor becomes its power, at least 1/1024,
+    ///     and process noise a multiple.
+    /// missing : {"error", "skip"}
+    ///     What to do with a sample that has a NaN: refuse it, or leave it out.
     ///
     /// Returns
     /// -------
@@ -226,19 +235,23 @@ impl Bank {
     ///     For a wrong shape, NaN or Inf, or a gamma that is not positive definite.
     /// NumericalRange
     ///     When no member could take the sample. In either case nothing has changed.
-    #[pyo3(signature = (phi, y, gamma=None))]
+    #[pyo3(signature = (phi, y, gamma=None, *, elapsed=None, missing="error"))]
     fn update(
         &self,
         py: Python<'_>,
         phi: &Bound<'_, PyAny>,
         y: &Bound<'_, PyAny>,
         gamma: Option<&Bound<'_, PyAny>>,
+        elapsed: Option<&Bound<'_, PyAny>>,
+        missing: &str,
     ) -> PyResult<BankUpdate> {
         let (phi, y) = (self.input("phi", phi)?, self.input("y", y)?);
         let gamma = gamma.map(|gamma| self.input("gamma", gamma)).transpose()?;
+        let missing = Missing::named(missing).map_err(raise)?;
+        let options = UpdateOptions { elapsed: read_elapsed(elapsed)?, missing };
         let mut bank = self.bank.lock(py)?;
         let (phi, y, gamma) = (phi.view("phi")?, y.view("y")?, view("gamma", &gamma)?);
-        bank.update(phi, y, gamma).map(BankUpdate).map_err(raise)
+        bank.update_with((phi, y, gamma), options).map(BankUpdate).map_err(raise)
     }
 
     /// Take a whole record, without Python in the loop and without holding the interpreter.
@@ -249,11 +262,15 @@ impl Bank {
     /// y : (T,), (T, rows), (T, targets) or (T, rows, targets) array
     /// gamma : float, (rows, rows), (T,) or (T, rows, rows) array, optional
     ///     Noise covariance, the same for all samples or one a sample.
-    /// outputs : sequence of str, optional
+    /// outputs : str or sequence of str, optional
     ///     What to keep: "theta", "error", "leverage", "forgetting_factor", "skipped", "windup",
     ///     "variance", "covariance", "weights" or "memory".
     /// missing : {"error", "skip"}
     ///     What to do with a sample that has a NaN: refuse the record, or leave the sample out.
+    /// time : (T,) or (T + 1,) array of numbers or dates, optional
+    ///     When samples were taken, not decreasing, with the time of the last sample before them or
+    ///     without; see `elapsed` of `update`. If not given, each sample takes one unit of time. A
+    ///     sample that is left out takes none: its time is the next one's.
     ///
     /// Returns
     /// -------
@@ -263,24 +280,29 @@ impl Bank {
     /// ------
     /// InvalidInput, NumericalRange
     ///     Names the sample and what is wrong with it; the bank is as it was before the record.
-    #[pyo3(signature = (phi, y, gamma=None, outputs=None, missing="error"))]
+    #[pyo3(signature = (phi, y, gamma=None, outputs=None, missing="error", *, time=None))]
+    #[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn run(
         &self,
         py: Python<'_>,
         phi: &Bound<'_, PyAny>,
         y: &Bound<'_, PyAny>,
         gamma: Option<&Bound<'_, PyAny>>,
-        outputs: Option<Vec<String>>,
+        outputs: Option<Names>,
         missing: &str,
+        time: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Run> {
         let missing = Missing::named(missing).map_err(raise)?;
         let (phi, y) = (self.input("phi", phi)?, self.input("y", y)?);
         let gamma = gamma.map(|gamma| self.input("gamma", gamma)).transpose()?;
+        let times = read_times(time)?;
+        let times = times_input(&times)?;
         let mut held = self.bank.lock(py)?;
         let record = (phi.view("phi")?, y.view("y")?, view("gamma", &gamma)?);
-        let (bank, outputs) = (&mut *held, names(&outputs));
-        let run =
-            py.detach(|| bank.run_while(record, missing, outputs.as_deref(), &mut heed_signals));
+        let (bank, outputs) = (&mut *held, names(outputs.as_ref()));
+        let options =
+            RunOptions { missing, outputs: outputs.as_deref(), time: view("time", &times)? };
+        let run = py.detach(|| bank.run_while(record, &options, &mut heed_signals));
         Run::new(py, run.map_err(raise)?)
     }
 

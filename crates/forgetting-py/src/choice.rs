@@ -39,11 +39,19 @@ pub fn read_forgetting_factor(rule: Option<&Bound<'_, PyAny>>) -> PyResult<Forge
     Ok(match factor {
         None => ForgettingFactor::Default,
         Some(factor) if factor.is_none() => ForgettingFactor::None,
-        Some(factor) => match factor.extract() {
-            Ok(number) => ForgettingFactor::constant(number),
-            Err(_) => ForgettingFactor::Rate(read_choice("forgetting_factor", &factor)?),
-        },
+        Some(factor) => read_factor(&factor)?,
     })
+}
+
+/// How much to forget: a number or a rate.
+///
+/// # Errors
+/// As for [`read`].
+pub fn read_factor(factor: &Bound<'_, PyAny>) -> PyResult<ForgettingFactor> {
+    match factor.extract() {
+        Ok(number) => Ok(ForgettingFactor::constant(number)),
+        Err(_) => Ok(ForgettingFactor::Rate(read_choice("forgetting_factor", factor)?)),
+    }
 }
 
 fn read_choice(what: &str, object: &Bound<'_, PyAny>) -> PyResult<Choice> {

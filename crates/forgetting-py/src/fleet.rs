@@ -3,7 +3,9 @@
 use crate::arrays::{optional, output, Input};
 use crate::errors::{invalid, raise};
 use crate::rls::Rls;
-use crate::settings::{names, read_choices, read_optional, view, write_description, Whole};
+use crate::settings::{
+    names, read_choices, read_optional, view, write_description, Dtype, Names, Whole,
+};
 use crate::shared::Shared;
 use forgetting_runtime::{threads, Error, NumberType, Settings};
 use numpy::{PyArray1, PyArrayMethods};
@@ -36,7 +38,7 @@ use pyo3::types::{PyBytes, PyTuple, PyType};
 ///     one a stream. An (n, n) array is one matrix for all, also when count is n.
 /// initial_theta : (n,) or (count, n) array, optional
 ///     Estimate before the first sample, for all streams or one a stream; 0 if not given.
-/// dtype : {"float64", "float32"}
+/// dtype : {"float64", "float32"} or NumPy type
 ///     Type of all numbers.
 /// threads : int, optional
 ///     Cores that an update runs on; if not given, all where that is faster than one. The result
@@ -76,7 +78,9 @@ pub struct Fleet {
 impl Fleet {
     #[new]
     #[pyo3(signature = (count, parameters, *, rule=None, forgetting_factor=None, weighting=None,
-        gate=None, initial_covariance=None, initial_theta=None, dtype="float64", threads=None))]
+        gate=None, initial_covariance=None, initial_theta=None, dtype=Dtype::DEFAULT, threads=None),
+        text_signature = "(count, parameters, *, rule=None, forgetting_factor=None, weighting=None, \
+        gate=None, initial_covariance=None, initial_theta=None, dtype='float64', threads=None)")]
     #[allow(clippy::too_many_arguments, reason = "Python's keywords")]
     fn new(
         count: Whole,
@@ -87,10 +91,10 @@ impl Fleet {
         gate: Option<&Bound<'_, PyAny>>,
         initial_covariance: Option<&Bound<'_, PyAny>>,
         initial_theta: Option<&Bound<'_, PyAny>>,
-        dtype: &str,
+        dtype: Dtype,
         threads: Option<Whole>,
     ) -> PyResult<Self> {
-        let number_type = NumberType::named(dtype).map_err(raise)?;
+        let number_type = dtype.0;
         let threads =
             forgetting_runtime::threads(threads.map(|threads| threads.0)).map_err(raise)?;
         let factor = read_optional("forgetting_factor", forgetting_factor, number_type)?;
@@ -224,8 +228,11 @@ impl Fleet {
     /// mask : (count,) array of bool, optional
     ///     Which streams have a sample; all if not given. A NaN in phi or y says the same of its
     ///     stream.
-    /// outputs : sequence of str, default ("error", "skipped")
+    /// outputs : str or sequence of str, default ("error", "skipped")
     ///     What to keep, of "error", "leverage" and "skipped".
+    /// elapsed : float or (count,) array, optional
+    ///     Time since the last sample of each stream, as that of `RLS.update`. Streams are then taken
+    ///     one by one, in microseconds each.
     ///
     /// Returns
     /// -------
@@ -237,23 +244,28 @@ impl Fleet {
     ///     For a wrong shape; nothing has changed. What a stream cannot use is not raised: the
     ///     code in `skipped` says "refused" where the sample has an infinite number or the result
     ///     would leave the range of the number type, and that stream is as it was.
-    #[pyo3(signature = (phi, y, mask=None, outputs=None))]
+    #[pyo3(signature = (phi, y, mask=None, outputs=None, *, elapsed=None))]
     fn update(
         &self,
         py: Python<'_>,
         phi: &Bound<'_, PyAny>,
         y: &Bound<'_, PyAny>,
         mask: Option<&Bound<'_, PyAny>>,
-        outputs: Option<Vec<String>>,
+        outputs: Option<Names>,
+        elapsed: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<FleetUpdate> {
         let number_type = self.number_type;
         let mask = mask.map(|mask| read_mask(mask)).transpose()?;
         let phi = Input::read("phi", phi, number_type)?;
         let y = Input::read("y", y, number_type)?;
+        let elapsed = read_optional("elapsed", elapsed, number_type)?;
         let mut held = self.fleet.lock(py)?;
+        let elapsed = view("elapsed", &elapsed)?;
         let samples = (phi.view("phi")?, y.view("y")?, mask.as_deref());
-        let (fleet, outputs) = (&mut *held, names(&outputs));
-        let update = py.detach(|| fleet.update(samples, outputs.as_deref())).map_err(raise)?;
+        let (fleet, outputs) = (&mut *held, names(outputs.as_ref()));
+        let update = py
+            .detach(|| fleet.update_after(elapsed, samples, outputs.as_deref()))
+            .map_err(raise)?;
         Ok(FleetUpdate {
             error: optional(py, update.error)?,
             leverage: optional(py, update.leverage)?,

@@ -13,6 +13,7 @@ mod rls;
 mod run;
 mod settings;
 mod shared;
+mod time;
 mod update;
 mod window;
 

@@ -4,11 +4,15 @@ use crate::arrays::{output, output_or_float, Input};
 use crate::errors::{heed_signals, raise};
 use crate::run::Run;
 use crate::settings::{
-    names, read_choices, read_optional, view, write_description, write_health, Whole,
+    names, read_choices, read_optional, view, with_factor, write_description, write_health, Dtype,
+    Names, Whole,
 };
 use crate::shared::Shared;
+use crate::time::{read_elapsed, read_times, times_input};
 use crate::update::Update;
-use forgetting_runtime::{size, Estimator, Missing, NumberType, Settings};
+use forgetting_runtime::{
+    size, Estimator, Missing, NumberType, RunOptions, Settings, UpdateOptions,
+};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyType};
 
@@ -23,6 +27,8 @@ use pyo3::types::{PyBytes, PyDict, PyType};
 /// rule : str or Rule, optional
 ///     Where to forget; see `forgetting.rules()`. If not given, `RandomWalk(0.003, bound=1e5)`;
 ///     `Subspace(0.99)` where an initial covariance is given.
+/// forgetting_factor : float or Rate, optional
+///     How much to forget, in the place of the rule's; of `Subspace` if no rule is given.
 /// weighting : str or Weighting, optional
 ///     How far to trust a sample, by its innovation; see `forgetting.weightings()`.
 /// gate : str, Gate or callable, optional
@@ -40,7 +46,7 @@ use pyo3::types::{PyBytes, PyDict, PyType};
 ///     (a threshold, a process noise, an information matrix) is in these units, too.
 /// initial_theta : (n,) or (n, targets) array, optional
 ///     Estimate before the first sample; 0 if not given.
-/// dtype : {"float64", "float32"}
+/// dtype : {"float64", "float32"} or NumPy type
 ///     Type of all numbers.
 /// monitor : bool, default False
 ///     Watch for windup, excitation, noise and whiteness, see `health`; costs O(n) a sample.
@@ -75,27 +81,29 @@ pub struct Rls {
 #[pymethods]
 impl Rls {
     #[new]
-    #[pyo3(signature = (parameters, *, rule=None, weighting=None, gate=None, rows=Whole(1), targets=Whole(1),
-        initial_covariance=None, initial_theta=None, dtype="float64", monitor=false),
-        text_signature = "(parameters, *, rule=None, weighting=None, gate=None, rows=1, targets=1, \
-        initial_covariance=None, initial_theta=None, dtype='float64', monitor=False)")]
+    #[pyo3(signature = (parameters, *, rule=None, forgetting_factor=None, weighting=None, gate=None,
+        rows=Whole(1), targets=Whole(1), initial_covariance=None, initial_theta=None, dtype=Dtype::DEFAULT, monitor=false),
+        text_signature = "(parameters, *, rule=None, forgetting_factor=None, weighting=None, gate=None, \
+        rows=1, targets=1, initial_covariance=None, initial_theta=None, dtype='float64', monitor=False)")]
     #[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn new(
         parameters: Whole,
         rule: Option<&Bound<'_, PyAny>>,
+        forgetting_factor: Option<&Bound<'_, PyAny>>,
         weighting: Option<&Bound<'_, PyAny>>,
         gate: Option<&Bound<'_, PyAny>>,
         rows: Whole,
         targets: Whole,
         initial_covariance: Option<&Bound<'_, PyAny>>,
         initial_theta: Option<&Bound<'_, PyAny>>,
-        dtype: &str,
+        dtype: Dtype,
         monitor: bool,
     ) -> PyResult<Self> {
-        let number_type = NumberType::named(dtype).map_err(raise)?;
+        let number_type = dtype.0;
         let covariance = read_optional("initial_covariance", initial_covariance, number_type)?;
         let theta = read_optional("initial_theta", initial_theta, number_type)?;
         let choices = read_choices(parameters, rule, weighting, gate)?;
+        let choices = with_factor(choices, forgetting_factor)?;
         let settings = Settings {
             rows: size("rows", rows.0).map_err(raise)?,
             targets: size("targets", targets.0).map_err(raise)?,
@@ -246,6 +254,12 @@ impl Rls {
     /// y : float, (rows,), (targets,) or (rows, targets) array
     /// gamma : float or (rows, rows) array, optional
     ///     Noise covariance of the sample, positive definite; 1 if not given.
+    /// elapsed : float or duration, optional
+    ///     Time since the last sample, in the unit of time in which forgetting is stated (a duration
+    ///     counts in seconds); 1 if not given. A forgetting factor becomes its power, at least 1/1024,
+    ///     and process noise a multiple.
+    /// missing : {"error", "skip"}
+    ///     What to do with a sample that has a NaN: refuse it, or leave it out.
     ///
     /// Returns
     /// -------
@@ -257,19 +271,23 @@ impl Rls {
     ///     For a wrong shape, NaN or Inf, or a gamma that is not positive definite.
     /// NumericalRange
     ///     When the covariance would overflow. In either case nothing has changed.
-    #[pyo3(signature = (phi, y, gamma=None))]
+    #[pyo3(signature = (phi, y, gamma=None, *, elapsed=None, missing="error"))]
     fn update(
         &self,
         py: Python<'_>,
         phi: &Bound<'_, PyAny>,
         y: &Bound<'_, PyAny>,
         gamma: Option<&Bound<'_, PyAny>>,
+        elapsed: Option<&Bound<'_, PyAny>>,
+        missing: &str,
     ) -> PyResult<Update> {
         let (phi, y) = (self.input("phi", phi)?, self.input("y", y)?);
         let gamma = gamma.map(|gamma| self.input("gamma", gamma)).transpose()?;
+        let missing = Missing::named(missing).map_err(raise)?;
+        let options = UpdateOptions { elapsed: read_elapsed(elapsed)?, missing };
         let mut estimator = self.estimator.lock(py)?;
         let (phi, y, gamma) = (phi.view("phi")?, y.view("y")?, view("gamma", &gamma)?);
-        estimator.update(phi, y, gamma).map(Update).map_err(raise)
+        estimator.update_with((phi, y, gamma), options).map(Update).map_err(raise)
     }
 
     /// Take a whole record, without Python in the loop and without holding the interpreter.
@@ -283,10 +301,14 @@ impl Rls {
     /// y : (T,), (T, rows), (T, targets) or (T, rows, targets) array
     /// gamma : float, (rows, rows), (T,) or (T, rows, rows) array, optional
     ///     Noise covariance, the same for all samples or one a sample.
-    /// outputs : sequence of str, optional
+    /// outputs : str or sequence of str, optional
     ///     What to keep: names of attributes of `Run`.
     /// missing : {"error", "skip"}
     ///     What to do with a sample that has a NaN: refuse the record, or leave the sample out.
+    /// time : (T,) or (T + 1,) array of numbers or dates, optional
+    ///     When samples were taken, not decreasing, with the time of the last sample before them or
+    ///     without; see `elapsed` of `update`. If not given, each sample takes one unit of time. A
+    ///     sample that is left out takes none: its time is the next one's.
     ///
     /// Returns
     /// -------
@@ -297,24 +319,29 @@ impl Rls {
     /// InvalidInput, NumericalRange
     ///     Names the sample and what is wrong with it; the estimator is as it was before the
     ///     record.
-    #[pyo3(signature = (phi, y, gamma=None, outputs=None, missing="error"))]
+    #[pyo3(signature = (phi, y, gamma=None, outputs=None, missing="error", *, time=None))]
+    #[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn run(
         &self,
         py: Python<'_>,
         phi: &Bound<'_, PyAny>,
         y: &Bound<'_, PyAny>,
         gamma: Option<&Bound<'_, PyAny>>,
-        outputs: Option<Vec<String>>,
+        outputs: Option<Names>,
         missing: &str,
+        time: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Run> {
         let missing = Missing::named(missing).map_err(raise)?;
         let (phi, y) = (self.input("phi", phi)?, self.input("y", y)?);
         let gamma = gamma.map(|gamma| self.input("gamma", gamma)).transpose()?;
+        let times = read_times(time)?;
+        let times = times_input(&times)?;
         let mut held = self.estimator.lock(py)?;
         let record = (phi.view("phi")?, y.view("y")?, view("gamma", &gamma)?);
-        let (estimator, outputs) = (&mut *held, names(&outputs));
-        let run = py
-            .detach(|| estimator.run_while(record, missing, outputs.as_deref(), &mut heed_signals));
+        let (estimator, outputs) = (&mut *held, names(outputs.as_ref()));
+        let options =
+            RunOptions { missing, outputs: outputs.as_deref(), time: view("time", &times)? };
+        let run = py.detach(|| estimator.run_while(record, &options, &mut heed_signals));
         Run::new(py, run.map_err(raise)?)
     }
 

@@ -1,7 +1,7 @@
 //! What `RLS` and `Fleet` are given alike, and what both show.
 
 use crate::arrays::{output, Input};
-use crate::choice::{read, read_forgetting_factor, read_gate, write};
+use crate::choice::{read, read_factor, read_forgetting_factor, read_gate, write};
 use crate::errors::raise;
 use forgetting_runtime::{size, Description, Health, NumberType, Settings, View};
 use pyo3::exceptions::PyOverflowError;
@@ -27,6 +27,20 @@ pub fn read_choices(
         gate: read_gate(gate)?,
         ..Settings::new(parameters)
     })
+}
+
+/// The same with this forgetting factor, a number or a rate, in the place of that of the rule.
+///
+/// # Errors
+/// `InvalidInput` names it when it is neither, and the rule when it uses none.
+pub fn with_factor<'a>(
+    settings: Settings<'a>,
+    factor: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Settings<'a>> {
+    match factor {
+        None => Ok(settings),
+        Some(factor) => settings.with_forgetting_factor(read_factor(factor)?).map_err(raise),
+    }
 }
 
 /// A whole number of Python's, whose numbers have no largest: one beyond 64 bits is the largest of
@@ -67,9 +81,46 @@ pub fn view<'a>(
     input.as_ref().map(|input| input.view(name)).transpose()
 }
 
+/// Names of outputs: one, or a sequence of them.
+pub struct Names(Vec<String>);
+
+impl<'py> FromPyObject<'_, 'py> for Names {
+    type Error = PyErr;
+
+    fn extract(names: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        match names.extract::<String>() {
+            Ok(name) => Ok(Self(vec![name])),
+            Err(_) => names.extract().map(Self),
+        }
+    }
+}
+
 /// Names of outputs as they are passed on.
-pub fn names(outputs: &Option<Vec<String>>) -> Option<Vec<&str>> {
-    outputs.as_ref().map(|outputs| outputs.iter().map(String::as_str).collect())
+pub fn names(outputs: Option<&Names>) -> Option<Vec<&str>> {
+    outputs.map(|outputs| outputs.0.iter().map(String::as_str).collect())
+}
+
+/// A number type: its name, or NumPy's type.
+pub struct Dtype(pub NumberType);
+
+impl Dtype {
+    /// The one that is taken if none is given.
+    pub const DEFAULT: Self = Self(NumberType::F64);
+}
+
+impl<'py> FromPyObject<'_, 'py> for Dtype {
+    type Error = PyErr;
+
+    fn extract(dtype: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        let name = match dtype.extract::<String>() {
+            Ok(name) => name,
+            Err(_) => {
+                let numpy = dtype.py().import("numpy")?;
+                numpy.call_method1("dtype", (dtype,))?.getattr("name")?.extract()?
+            }
+        };
+        NumberType::named(&name).map(Self).map_err(raise)
+    }
 }
 
 /// Rule, rate, weighting and gate by name, each with its parameters.

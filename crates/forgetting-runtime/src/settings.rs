@@ -1,6 +1,6 @@
 //! What an estimator is made from, and what it is when nothing is said.
 
-use crate::choice::Choice;
+use crate::choice::{Choice, Value};
 use crate::error::Error;
 use crate::number::{NumberType, View};
 use forgetting::rules::RULES;
@@ -70,7 +70,8 @@ pub struct Settings<'a> {
     pub targets: usize,
     /// the type of all numbers
     pub number_type: NumberType,
-    /// where to forget; if not given, a random walk that is bounded, or `subspace` where P₀ is given
+    /// where to forget; if not given, a random walk that is bounded, or `subspace` where P₀ or a
+    /// forgetting factor is given
     pub rule: Option<Choice>,
     /// how much to forget
     pub forgetting_factor: ForgettingFactor,
@@ -112,15 +113,36 @@ impl Settings<'_> {
         Self { rule, ..self.clone() }
     }
 
+    /// The same with this forgetting factor in the place of that of the rule.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] for a rule that uses none.
+    pub fn with_forgetting_factor(
+        self,
+        forgetting_factor: ForgettingFactor,
+    ) -> Result<Self, Error> {
+        let settings = Self { forgetting_factor, ..self };
+        let rule = settings.rule();
+        let inner = |value: &Value| match value {
+            Value::Word(name) | Value::Choice(Choice { name, .. }) => uses_factor(name),
+            _ => false,
+        };
+        if uses_factor(&rule.name) || rule.parameters.iter().any(|(_, value)| inner(value)) {
+            return Ok(settings);
+        }
+        let reason = format!("forgetting_factor is given, but the rule {} uses none", rule.name);
+        Err(Error::unsupported(reason))
+    }
+
     /// The rule, named or not.
     pub(crate) fn rule(&self) -> Choice {
         let walk = || {
             Choice::named("random_walk").with("process_noise", PROCESS_NOISE).with("bound", DIFFUSE)
         };
-        match (&self.rule, self.initial_covariance) {
-            (Some(rule), _) => rule.clone(),
-            (None, None) => walk(),
-            (None, Some(_)) => Choice::named(RULE),
+        match (&self.rule, self.initial_covariance, &self.forgetting_factor) {
+            (Some(rule), ..) => rule.clone(),
+            (None, None, ForgettingFactor::Default | ForgettingFactor::None) => walk(),
+            (None, ..) => Choice::named(RULE),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! One sample in one call.
 
 use crate::error::Error;
+use crate::missing::{is_missing, Missing};
 use crate::number::{Array, Elements, Number, View};
 use crate::shape;
 use forgetting::{Answer, AnyEstimator, Memory, Noise, Real, Skip};
@@ -44,6 +45,22 @@ impl Innovation {
     }
 }
 
+/// How a sample is taken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UpdateOptions {
+    /// the time since the last sample, in the unit in which forgetting is stated: a forgetting factor
+    /// becomes its power, at least 1/1024, and process noise a multiple
+    pub elapsed: f64,
+    /// what is done with a sample that has a NaN
+    pub missing: Missing,
+}
+
+impl Default for UpdateOptions {
+    fn default() -> Self {
+        Self { elapsed: 1.0, missing: Missing::Error }
+    }
+}
+
 /// What one sample did.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Update {
@@ -68,6 +85,22 @@ pub struct Update {
 }
 
 impl Update {
+    /// Of a sample that is missing, of so many errors.
+    fn of_missing(errors: usize, targets: usize) -> Self {
+        let nothing = Innovation::new(&vec![f64::NAN; errors], targets);
+        Self {
+            error: nothing.clone(),
+            whitened_innovation: nothing,
+            leverage: f64::NAN,
+            weight: 1.0,
+            forgetting_factor: 1.0,
+            rank: 0,
+            skipped: Some(Skip::Missing),
+            gate: Answer::Update,
+            windup: false,
+        }
+    }
+
     /// From the core's; several rows must be whitened.
     #[inline]
     fn new<T: Real>(update: &forgetting::Update<'_, T>, targets: usize) -> Result<Self, Error> {
@@ -98,9 +131,8 @@ impl Update {
 #[inline]
 pub(crate) fn update<T: Number>(
     estimator: &mut AnyEstimator<T>,
-    phi: View<'_>,
-    y: View<'_>,
-    gamma: Option<View<'_>>,
+    (phi, y, gamma): (View<'_>, View<'_>, Option<View<'_>>),
+    options: UpdateOptions,
 ) -> Result<Update, Error> {
     let memory = estimator.prior().memory();
     let (n, p, m) = (memory.parameters(), memory.rows(), memory.targets());
@@ -119,7 +151,10 @@ pub(crate) fn update<T: Number>(
         Some(full) => Noise::Full(full),
     };
     let (phi, y) = (T::read(phi.numbers()), T::read(y.numbers()));
-    let update = estimator.update_with_noise(&phi, &y, noise)?;
+    if options.missing == Missing::Skip && is_missing(&phi, &y) {
+        return Ok(Update::of_missing(p * m, m));
+    }
+    let update = estimator.update_after(T::from_f64(options.elapsed), &phi, &y, noise)?;
     Update::new(&update, m)
 }
 

@@ -41,8 +41,13 @@ pub fn forget_with_errors<F: Forgetting<Dynamic<f64>>>(
     let (mut regressors, mut errors) = (phi.elements.clone(), errors.elements.clone());
     let mut sample = Sample::new(memory, &mut regressors, &mut errors);
     let mut work = Work::new(memory);
-    let step =
-        Step { factor: &mut factor, sample: &mut sample, forgetting_factor, work: &mut work };
+    let step = Step {
+        factor: &mut factor,
+        sample: &mut sample,
+        forgetting_factor,
+        elapsed: 1.0,
+        work: &mut work,
+    };
     let forgotten = rule.forget(state, step).unwrap();
     let rows = sample.rows();
     let n = memory.parameters();

@@ -1,15 +1,16 @@
 //! The units in which an estimator measures regressors that it was told nothing about.
 //!
 //! ```text
-//! x_i = φ_i / s_i        what the recursion is given in the place of φ_i
-//! s_i = |φ_i|            when φ_i is first other than 0, then
-//! s_i = (mean √|φ_i|)²   over all φ_i ≠ 0 so far, renewed after 2n, 4n, 8n, … samples
+//! x_i = φ_i / s_i            what the recursion is given in the place of φ_i
+//! s_i = |φ_i|/√Γ             when φ_i is first other than 0, then
+//! s_i = (mean √(|φ_i|/√Γ))²  over all φ_i ≠ 0 so far, renewed after 2n, 4n, 8n, … samples
 //! ```
 //!
 //! Whatever the recursion does then depends on x alone: no prediction depends on the units in which
 //! a user writes φ, and every setting of a rule is a pure number. When the units are renewed by
 //! r = s/s₊, P becomes S P S with S = diag(s₊/s) and θ becomes S θ: what they say of the parameters
-//! is the same.
+//! is the same. Regressors count as they are when whitened by Γ, where it is given: P₀ then is as large
+//! beside Γ as beside 1.
 //!
 //! Roots are averaged, not squares, so that values that are not typical count for little: a first value
 //! a thousand times the others makes s 23 times too large after 8 samples and 1.06 times after 1000,
@@ -71,9 +72,14 @@ impl<M: Memory> Units<M> {
         samples.take_while(|sample| !sample.chunks_exact(n).any(is_new)).count()
     }
 
-    /// Chooses units for the regressors that have none and are other than 0 in the sample `phi`;
-    /// `each` is told which, and 1/s_i.
-    pub fn choose(&mut self, phi: &[M::Real], mut each: impl FnMut(usize, M::Real)) {
+    /// Chooses units for the regressors that have none and are other than 0 in the sample `phi`, of
+    /// which √Γ is the `deviation`; `each` is told which, and 1/s_i.
+    pub fn choose(
+        &mut self,
+        phi: &[M::Real],
+        deviation: M::Real,
+        mut each: impl FnMut(usize, M::Real),
+    ) {
         let n = self.memory.parameters();
         for i in 0..n {
             if self.has_unit(i) {
@@ -82,7 +88,7 @@ impl<M: Memory> Units<M> {
             let column = phi.iter().skip(i).step_by(n);
             let largest = column.fold(M::Real::ZERO, |most, x| most.max(x.abs()));
             if largest > M::Real::ZERO && largest.is_finite() {
-                let reciprocal = (M::Real::ONE / largest).min(M::Real::CEILING);
+                let reciprocal = (deviation / largest).min(M::Real::CEILING);
                 self.reciprocals.as_mut()[i] = reciprocal;
                 each(i, reciprocal);
             }
@@ -120,6 +126,16 @@ impl<M: Memory> Units<M> {
         let (roots, counts) = (self.roots.as_mut(), self.counts.as_mut());
         M::Real::sum_roots(SumRoots { rows: measured, roots, counts });
         self.samples += samples;
+    }
+
+    /// Takes note of one sample as it was measured, which is divided by its √Γ, `deviation`.
+    #[inline]
+    pub fn learn_one(&mut self, measured: &mut [M::Real], deviation: M::Real) {
+        if deviation != M::Real::ONE {
+            let reciprocal = M::Real::ONE / deviation;
+            measured.iter_mut().for_each(|x| *x *= reciprocal);
+        }
+        self.learn(measured, 1);
     }
 
     /// The s₊/s of a renewal, if one is due after the last sample.

@@ -35,6 +35,7 @@ def identify(
     show: options.Show = False,
     rule: options.RuleName = None,
     forgetting_factor: options.ForgettingFactor = None,
+    half_life: options.HalfLife = None,
     threshold: options.Threshold = None,
     settings: options.Settings = None,
     gate: options.GateText = None,
@@ -59,6 +60,8 @@ def identify(
     source = read_record(record, time, gap, missing, part, encoding)
     if show:
         return show_record(source)
+    if half_life is not None and forgetting_factor is not None:
+        raise RecordError("--half-life and --forgetting-factor are given; allowed is one")
     chosen = rule_or_auto(rule, forgetting_factor, threshold, settings or [])
     before = make_gate(gate)
     with progress_bar(f"identifying {record.name}") as progress:
@@ -70,6 +73,7 @@ def identify(
             arx=None if arx is None else parse_orders(arx),
             offset=offset,
             rule=chosen,
+            half_life=half_life,
             gate=before,
             initial_covariance=parse_covariance(initial_covariance),
             dtype=dtype,

@@ -118,6 +118,16 @@ ForgettingFactor = Annotated[
         "-l",
     ),
 ]
+HalfLife = Annotated[
+    str | None,
+    option(
+        RULE,
+        "In place of the factor: the time after which half is forgotten, such as 10min "
+        "by the clock, or 50 (samples).",
+        "--half-life",
+        metavar="DURATION",
+    ),
+]
 Threshold = Annotated[
     float | None,
     option(RULE, "Smallest regressor that counts as information (rule subspace).", "--threshold"),

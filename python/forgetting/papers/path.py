@@ -101,7 +101,7 @@ def follow(
     covariance = np.einsum("tij,tj,tkj->tik", upper, diagonal, upper)
     return Path(
         np.concatenate([theta[np.newaxis], *(run.theta for run in runs)]),
-        error[:, 0] if rows == 1 else error,
+        error.reshape(len(error), -1)[:, 0] if rows == 1 else error,
         np.concatenate([run.forgetting_factor for run in runs]),
         np.concatenate([run.skipped == 0 for run in runs]),
         np.array([0, *ends]),

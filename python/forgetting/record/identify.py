@@ -7,10 +7,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 import forgetting as fg
 from forgetting.record.dynamics import dynamics
+from forgetting.record.half_life import with_half_life
 from forgetting.record.identification import Identification
 from forgetting.record.missing import Words
 from forgetting.record.names import clean
@@ -35,6 +36,7 @@ def identify(
     arx: Sequence[int] | None = None,
     offset: bool = True,
     rule: Any = "auto",
+    half_life: Any = None,
     gate: Any = None,
     initial_covariance: ArrayLike | None = None,
     dtype: str = "float64",
@@ -57,6 +59,10 @@ def identify(
         Orders na, nb, nk of the ARX model.
     rule : str or Rule
         Forgetting rule; "auto" mixes rules of all speeds, see `forgetting.Bank`.
+    half_life : float, str or duration, optional
+        In the place of the rule's forgetting factor: after this time half of what is known is
+        forgotten. A number counts samples, "10min" or a duration counts by the clock, whatever the
+        steps between samples; one gap forgets ten half-lives at most.
     gate : str, Gate or callable, optional
         Whether a sample is used; see `forgetting.gates`.
     initial_covariance : float or array_like, optional
@@ -102,6 +108,9 @@ def identify(
     """
     source = read(record, time, gap=gap, missing=missing)
     samples = build(source, formula, listed(output), listed(input), arx, offset)
+    time_of: NDArray[np.float64] | None = None
+    if half_life is not None:
+        rule, time_of = with_half_life(rule, half_life, samples)
     settings: dict[str, Any] = {
         "targets": samples.y.shape[1],
         "initial_covariance": initial_covariance,
@@ -111,7 +120,7 @@ def identify(
     here = origin(samples, moves=initial_covariance is None)
     initial = np.asarray(estimator.covariance, dtype=np.float64)
     moved = here.moved(samples)
-    trace = run(estimator, moved, progress)
+    trace = run(estimator, moved, progress, time_of)
     units = np.ones(len(initial)) if estimator.units is None else estimator.units
     return Identification(
         samples=samples,

@@ -91,8 +91,16 @@ class Trace:
     weights: Array | None = None
 
 
-def run(estimator: Any, samples: Samples, progress: Progress | None = None) -> Trace:
-    """Run `estimator` over all samples in chunks; chunking changes no bit of the result."""
+def run(
+    estimator: Any,
+    samples: Samples,
+    progress: Progress | None = None,
+    time: Array | None = None,
+) -> Trace:
+    """Run `estimator` over all samples in chunks; chunking changes no bit of the result.
+
+    With the ``time`` of each, (T,), forgetting counts time in place of samples.
+    """
     dtype = np.dtype(estimator.dtype)
     phi = np.ascontiguousarray(samples.phi, dtype=dtype)
     y = np.ascontiguousarray(samples.y if samples.y.shape[1] > 1 else samples.y[:, 0], dtype=dtype)
@@ -104,7 +112,10 @@ def run(estimator: Any, samples: Samples, progress: Progress | None = None) -> T
     outputs = (*HISTORY, "memory", "weights") if isinstance(estimator, fg.Bank) else HISTORY
     for start, stop in chunks(total, phi.shape[1]):
         try:
-            piece = estimator.run(phi[start:stop], y[start:stop], outputs=outputs, missing="skip")
+            part = slice(start, stop)
+            # that of the last sample before the chunk comes with it
+            when = None if time is None else time[max(start - 1, 0) : stop]
+            piece = estimator.run(phi[part], y[part], outputs=outputs, missing="skip", time=when)
         except (fg.InvalidInput, fg.NumericalRange) as error:
             raise type(error)(in_rows(str(error), start)) from None
         pieces.append(piece)

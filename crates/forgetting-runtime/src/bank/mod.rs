@@ -8,11 +8,12 @@ pub use record::BANK_OUTPUTS;
 
 use crate::choice::{Choice, Description};
 use crate::error::Error;
-use crate::estimator::{units, GoOn, Missing, Run};
+use crate::estimator::{units, GoOn, Run, RunOptions};
+use crate::missing::{is_missing, Missing};
 use crate::number::{each, make, ByType, Family, Number};
 use crate::number::{Array, NumberType, View};
 use crate::shape;
-use crate::update::{check_gamma, Innovation};
+use crate::update::{check_gamma, Innovation, UpdateOptions};
 use forgetting::bank;
 use forgetting::saved::bank_number_type;
 use forgetting::{Memory, Noise, Real, Skip};
@@ -94,7 +95,19 @@ impl Bank {
         y: View<'_>,
         gamma: Option<View<'_>>,
     ) -> Result<BankUpdate, Error> {
-        each!(&mut self.typed, bank => update(bank, phi, y, gamma))
+        self.update_with((phi, y, gamma), UpdateOptions::default())
+    }
+
+    /// [`Bank::update`] with all options.
+    ///
+    /// # Errors
+    /// Those of [`Bank::update`], and [`Error`] names `elapsed` unless it is finite and not negative.
+    pub fn update_with(
+        &mut self,
+        sample: (View<'_>, View<'_>, Option<View<'_>>),
+        options: UpdateOptions,
+    ) -> Result<BankUpdate, Error> {
+        each!(&mut self.typed, bank => update(bank, sample, options))
     }
 
     /// Takes a whole record, as [`Estimator::run`](crate::Estimator::run) does; the outputs are those
@@ -109,22 +122,20 @@ impl Bank {
         missing: Missing,
         outputs: Option<&[&str]>,
     ) -> Result<Run, Error> {
-        self.run_while(record, missing, outputs, &mut || Ok(()))
+        self.run_while(record, &RunOptions::new(missing, outputs), &mut || Ok(()))
     }
 
-    /// [`Bank::run`], asking a few times a second whether to go on.
+    /// [`Bank::run`] with all options, asking a few times a second whether to go on.
     ///
     /// # Errors
     /// Those of [`Bank::run`], and [`Error::Sample`] with what `go_on` answers.
     pub fn run_while(
         &mut self,
         record: (View<'_>, View<'_>, Option<View<'_>>),
-        missing: Missing,
-        outputs: Option<&[&str]>,
+        options: &RunOptions<'_>,
         go_on: GoOn<'_>,
     ) -> Result<Run, Error> {
-        let outputs = outputs.unwrap_or(&record::DEFAULT_OUTPUTS);
-        each!(&mut self.typed, bank => record::run(bank, record, missing, outputs, go_on))
+        each!(&mut self.typed, bank => record::run(bank, record, options, go_on))
     }
 
     /// φθ of one regressor or many: (..., n) gives (...) or (..., m).
@@ -250,9 +261,8 @@ fn predict<T: Number>(bank: &bank::Bank<T>, phi: View<'_>) -> Result<Array, Erro
 
 fn update<T: Number>(
     bank: &mut bank::Bank<T>,
-    phi: View<'_>,
-    y: View<'_>,
-    gamma: Option<View<'_>>,
+    (phi, y, gamma): (View<'_>, View<'_>, Option<View<'_>>),
+    options: UpdateOptions,
 ) -> Result<BankUpdate, Error> {
     let memory = bank.memory();
     let (n, p, m) = (memory.parameters(), memory.rows(), memory.targets());
@@ -267,7 +277,18 @@ fn update<T: Number>(
         Some([scalar]) => Noise::Scalar(*scalar),
         Some(full) => Noise::Full(full),
     };
-    let update = bank.update(&T::read(phi.numbers()), &T::read(y.numbers()), noise)?;
+    let (phi, y) = (T::read(phi.numbers()), T::read(y.numbers()));
+    if options.missing == Missing::Skip && is_missing(&phi, &y) {
+        return Ok(BankUpdate {
+            error: Innovation::new(&vec![f64::NAN; p * m], m),
+            leverage: f64::NAN,
+            forgetting_factor: 1.0,
+            skipped: Some(Skip::Missing),
+            windup: false,
+            asleep: 0,
+        });
+    }
+    let update = bank.update_after(T::from_f64(options.elapsed), &phi, &y, noise)?;
     Ok(BankUpdate {
         error: Innovation::new(update.error, m),
         leverage: update.leverage.to_f64(),

@@ -2,13 +2,16 @@
 
 use super::by_parameter;
 use crate::error::Error;
-use crate::estimator::record::{GoOn, Missing, Pause, Record, RecordNoise, Run, Sizes};
+use crate::estimator::record::{
+    GoOn, Pause, Record, RecordNoise, RecordTime, Run, RunOptions, Sizes,
+};
+use crate::missing::{is_missing, Missing};
 use crate::number::{Array, Elements, Number, View};
 use forgetting::bank::{Bank, BankOutcome, BankUpdate, Kept};
 use forgetting::{Answer, Memory, Skip};
 
 /// Names of the outputs that are kept when none are named.
-pub(super) const DEFAULT_OUTPUTS: [&str; 6] =
+const DEFAULT_OUTPUTS: [&str; 6] =
     ["theta", "error", "leverage", "forgetting_factor", "skipped", "memory"];
 
 /// Names of all outputs of a bank: those of [`Run`], and
@@ -51,24 +54,27 @@ struct Outputs<T> {
 pub(super) fn run<T: Number>(
     bank: &mut Bank<T>,
     (phi, y, gamma): (View<'_>, View<'_>, Option<View<'_>>),
-    missing: Missing,
-    outputs: &[&str],
+    options: &RunOptions<'_>,
     go_on: GoOn<'_>,
 ) -> Result<Run, Error> {
     let sizes = Sizes::of(bank.memory(), &phi, &y)?;
     let count = bank.members().len();
+    let outputs = options.outputs.unwrap_or(&DEFAULT_OUTPUTS);
     let mut outputs = Outputs::<T>::named(outputs, sizes, count)?;
+    let shape_of_y = y.shape().to_vec();
     let (phi, y) = (T::read(phi.numbers()), T::read(y.numbers()));
     let gammas = gamma.map(|gamma| T::read(gamma.numbers()));
     let noise = match (&gamma, &gammas) {
         (Some(gamma), Some(gammas)) => RecordNoise::read(gamma.shape(), gammas, sizes)?,
         _ => RecordNoise::Unit,
     };
-    let record = Record { sizes, phi: &phi, y: &y, noise, missing };
+    let mut time = options.time.map(|time| RecordTime::read(time, sizes)).transpose()?;
+    let record = Record { sizes, phi: &phi, y: &y, noise, missing: options.missing };
     let mut pause = Pause::new(go_on, count * sizes.rows, sizes.parameters);
-    let taken = bank.all_or_nothing(|bank| take(bank, &record, &mut outputs, &mut pause));
+    let taken =
+        bank.all_or_nothing(|bank| take(bank, (&record, time.as_mut()), &mut outputs, &mut pause));
     taken.map_err(|(sample, error)| Error::Sample { sample, error })?;
-    Ok(outputs.finish(sizes, count))
+    Ok(outputs.finish(sizes, count, &shape_of_y))
 }
 
 /// The most samples that a bank takes together.
@@ -76,11 +82,12 @@ const MOST: usize = 64;
 
 fn take<T: Number>(
     bank: &mut Bank<T>,
-    record: &Record<'_, T>,
+    (record, mut time): (&Record<'_, T>, Option<&mut RecordTime<'_>>),
     outputs: &mut Outputs<T>,
     pause: &mut Pause<'_>,
 ) -> Result<(), (usize, forgetting::Error)> {
-    let together = matches!(record.noise, RecordNoise::Unit) && !outputs.need_covariance();
+    let together =
+        matches!(record.noise, RecordNoise::Unit) && !outputs.need_covariance() && time.is_none();
     let (n, samples) = (record.sizes.parameters, record.sizes.samples);
     let mut outcomes = [BankOutcome::default(); MOST];
     let mut k = 0;
@@ -90,7 +97,7 @@ fn take<T: Number>(
             false => 0,
         };
         if taken == 0 {
-            outputs.take(bank, record, k).map_err(|error| (k, error))?;
+            outputs.take(bank, (record, time.as_deref_mut()), k).map_err(|error| (k, error))?;
         }
         pause.after(taken.max(1)).map_err(|error| (k, error))?;
         k += taken.max(1);
@@ -176,7 +183,7 @@ impl<T: Number> Outputs<T> {
     fn take(
         &mut self,
         bank: &mut Bank<T>,
-        record: &Record<'_, T>,
+        (record, time): (&Record<'_, T>, Option<&mut RecordTime<'_>>),
         k: usize,
     ) -> Result<(), forgetting::Error> {
         let Sizes { parameters: n, rows: p, targets: m, .. } = record.sizes;
@@ -185,11 +192,11 @@ impl<T: Number> Outputs<T> {
         if let Some(weights) = &mut self.weights {
             weights.extend_from_slice(bank.weights());
         }
-        let is_missing = |values: &[T]| values.iter().any(|x| x.to_f64().is_nan());
-        if record.missing == Missing::Skip && (is_missing(phi) || is_missing(y)) {
+        if record.missing == Missing::Skip && is_missing(phi, y) {
             self.note_missing(p * m);
         } else {
-            self.note(&bank.update(phi, y, record.noise.at(k, p))?);
+            let elapsed = time.map_or(Ok(T::ONE), |time| time.elapsed(k))?;
+            self.note(&bank.update_after(elapsed, phi, y, record.noise.at(k, p))?);
         }
         if let Some(theta) = &mut self.theta {
             by_parameter(bank, theta);
@@ -239,16 +246,16 @@ impl<T: Number> Outputs<T> {
         }
     }
 
-    /// The outputs as arrays.
-    fn finish(self, sizes: Sizes, count: usize) -> Run {
-        let Sizes { samples, parameters: n, rows: p, targets: m } = sizes;
+    /// The outputs as arrays, errors in the shape of y.
+    fn finish(self, sizes: Sizes, count: usize, per_row: &[usize]) -> Run {
+        let Sizes { samples, parameters: n, targets: m, .. } = sizes;
         // one target has no dimension of its own
-        let by_target = |shape: [usize; 3]| shape[..3 - usize::from(m == 1)].to_vec();
+        let theta = [samples, n, m][..3 - usize::from(m == 1)].to_vec();
         let numbers = |numbers: Option<Vec<T>>| numbers.map(T::elements);
         let each = vec![samples];
         let outputs = [
-            ("theta", numbers(self.theta), by_target([samples, n, m])),
-            ("error", numbers(self.error), by_target([samples, p, m])),
+            ("theta", numbers(self.theta), theta),
+            ("error", numbers(self.error), per_row.to_vec()),
             ("leverage", numbers(self.leverage), each.clone()),
             ("forgetting_factor", numbers(self.forgetting_factor), each.clone()),
             ("skipped", self.skipped.map(Elements::U8), each.clone()),

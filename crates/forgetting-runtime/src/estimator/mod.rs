@@ -6,15 +6,16 @@ pub(crate) mod record;
 
 pub(crate) use accessors::{covariance, extremes, units};
 pub use health::Health;
-pub use record::{GoOn, Missing, Run};
+pub use record::{GoOn, Run, RunOptions};
 
 use crate::choice::{has_function, Description};
 use crate::configure::{self, check_copies};
 use crate::error::Error;
+use crate::missing::Missing;
 use crate::number::{each, make, ByType, Family, Number};
 use crate::number::{Array, NumberType, View};
 use crate::settings::Settings;
-use crate::update::{update, Update};
+use crate::update::{update, Update, UpdateOptions};
 use accessors::{factor, predict, theta};
 use forgetting::saved::number_type;
 use forgetting::{AnyEstimator, Memory};
@@ -104,7 +105,21 @@ impl Estimator {
         y: View<'_>,
         gamma: Option<View<'_>>,
     ) -> Result<Update, Error> {
-        each!(&mut self.typed, e => update(e, phi, y, gamma))
+        self.update_with((phi, y, gamma), UpdateOptions::default())
+    }
+
+    /// [`Estimator::update`] with all options.
+    ///
+    /// # Errors
+    /// Those of [`Estimator::update`], and [`Error`] names `elapsed` unless it is finite and not
+    /// negative.
+    #[inline]
+    pub fn update_with(
+        &mut self,
+        sample: (View<'_>, View<'_>, Option<View<'_>>),
+        options: UpdateOptions,
+    ) -> Result<Update, Error> {
+        each!(&mut self.typed, e => update(e, sample, options))
     }
 
     /// Takes a whole record of T samples: `phi` (T, n) or (T, p, n), `y` (T, p, m) with sizes of
@@ -123,22 +138,20 @@ impl Estimator {
         missing: Missing,
         outputs: Option<&[&str]>,
     ) -> Result<Run, Error> {
-        self.run_while(record, missing, outputs, &mut || Ok(()))
+        self.run_while(record, &RunOptions::new(missing, outputs), &mut || Ok(()))
     }
 
-    /// [`Estimator::run`], asking a few times a second whether to go on.
+    /// [`Estimator::run`] with all options, asking a few times a second whether to go on.
     ///
     /// # Errors
     /// Those of [`Estimator::run`], and [`Error::Sample`] with what `go_on` answers.
     pub fn run_while(
         &mut self,
         record: (View<'_>, View<'_>, Option<View<'_>>),
-        missing: Missing,
-        outputs: Option<&[&str]>,
+        options: &RunOptions<'_>,
         go_on: GoOn<'_>,
     ) -> Result<Run, Error> {
-        let outputs = outputs.unwrap_or(&Run::DEFAULT_OUTPUTS);
-        each!(&mut self.typed, e => record::run(e, record, missing, outputs, go_on))
+        each!(&mut self.typed, e => record::run(e, record, options, go_on))
     }
 
     /// φθ of one regressor or many: (..., n) gives (...) or (..., m).

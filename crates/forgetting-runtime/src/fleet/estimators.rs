@@ -1,16 +1,18 @@
 //! Streams that are an estimator each: any rule, rate and weighting.
 
+use crate::missing::is_missing;
 use crate::number::Number;
 use forgetting::fleet::{Outputs, Samples, REFUSED};
-use forgetting::{AnyEstimator, Error, Skip};
+use forgetting::{AnyEstimator, Error, Noise, Skip};
 
 /// How much more a number of the state costs here than in a block of lanes.
 pub const EFFORT: usize = 8;
 
-/// Takes a sample for each stream; returns how many used it. See
+/// Takes a sample for each stream, so much time after its last one; returns how many used it. See
 /// [`Part::update`](forgetting::fleet::Part::update).
 pub fn update<T: Number>(
     streams: &mut [AnyEstimator<T>],
+    elapsed: T,
     samples: Samples<'_, T>,
     outputs: &mut Outputs<'_, T>,
 ) -> usize {
@@ -19,7 +21,7 @@ pub fn update<T: Number>(
     for (i, estimator) in streams.iter_mut().enumerate() {
         let (phi, y) = (&samples.phi[i * n..(i + 1) * n], &samples.y[i..=i]);
         let (error, leverage, code) = match samples.mask.is_none_or(|mask| mask[i]) {
-            true => take(estimator, phi, y),
+            true => take(estimator, elapsed, phi, y),
             false => nothing(Skip::Missing.code()),
         };
         used += usize::from(code == 0);
@@ -31,11 +33,11 @@ pub fn update<T: Number>(
 }
 
 /// One stream's sample.
-fn take<T: Number>(estimator: &mut AnyEstimator<T>, phi: &[T], y: &[T]) -> (T, T, u8) {
-    if phi.iter().chain(y).any(|x| x.to_f64().is_nan()) {
+fn take<T: Number>(estimator: &mut AnyEstimator<T>, elapsed: T, phi: &[T], y: &[T]) -> (T, T, u8) {
+    if is_missing(phi, y) {
         return nothing(Skip::Missing.code());
     }
-    match estimator.update(phi, y) {
+    match estimator.update_after(elapsed, phi, y, Noise::Unit) {
         Ok(update) => (update.error[0], update.leverage, update.skipped.map_or(0, Skip::code)),
         Err(_) => nothing(REFUSED),
     }

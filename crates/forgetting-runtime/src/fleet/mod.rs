@@ -165,13 +165,28 @@ impl Fleet {
     /// [`Error`] names the argument that does not fit; nothing has changed.
     pub fn update(
         &mut self,
-        (phi, y, mask): (View<'_>, View<'_>, Option<&[bool]>),
+        samples: (View<'_>, View<'_>, Option<&[bool]>),
+        outputs: Option<&[&str]>,
+    ) -> Result<FleetUpdate, Error> {
+        self.update_after(None, samples, outputs)
+    }
+
+    /// The same, `elapsed` () or (count,) after the last sample of each stream, in the unit of time in
+    /// which forgetting is stated; see [`UpdateOptions::elapsed`](crate::UpdateOptions). Streams are
+    /// then taken one by one, which is slower.
+    ///
+    /// # Errors
+    /// Those of [`Fleet::update`], and [`Error`] names `elapsed` unless it is finite and not negative.
+    pub fn update_after(
+        &mut self,
+        elapsed: Option<View<'_>>,
+        samples: (View<'_>, View<'_>, Option<&[bool]>),
         outputs: Option<&[&str]>,
     ) -> Result<FleetUpdate, Error> {
         let outputs = outputs.unwrap_or(&FleetUpdate::DEFAULT_OUTPUTS);
         let threads = self.threads;
         each!(&mut self.typed, streams => {
-            update::update(streams, (phi, y, mask), outputs, threads)
+            update::update(streams, samples, elapsed, outputs, threads)
         })
     }
 

@@ -123,10 +123,33 @@ impl<T: Number> Streams<T> {
                 let parts = each.chunks_mut(count.div_ceil(parts).max(1));
                 let parts = parts.map(|part| (part.len(), part));
                 Ok(threads::sum(parts, n, (samples, outputs), |part, samples, mut outputs| {
-                    estimators::update(part, samples, &mut outputs)
+                    estimators::update(part, T::ONE, samples, &mut outputs)
                 }))
             }
         }
+    }
+
+    /// Takes a sample for each stream, so much time after its last one; returns how many used it.
+    ///
+    /// # Errors
+    /// None that a stream's own sample causes.
+    pub fn update_after(
+        &mut self,
+        elapsed: &[T],
+        mut samples: Samples<'_, T>,
+        mut outputs: Outputs<'_, T>,
+    ) -> Result<usize, Error> {
+        let (n, mut used) = (self.parameters(), 0);
+        for (i, &elapsed) in elapsed.iter().enumerate() {
+            let (sample, mut output);
+            (sample, samples) = samples.split_at(1, n);
+            (output, outputs) = outputs.split_at(1);
+            let mut stream = [self.get(i)];
+            used += estimators::update(&mut stream, elapsed, sample, &mut output);
+            let [stream] = stream;
+            self.put(i, stream)?;
+        }
+        Ok(used)
     }
 
     /// φθ of each stream.

@@ -41,6 +41,7 @@ impl FleetUpdate {
 pub(super) fn update<T: Number>(
     streams: &mut Streams<T>,
     (phi, y, mask): (View<'_>, View<'_>, Option<&[bool]>),
+    elapsed: Option<View<'_>>,
     outputs: &[&str],
     threads: Option<usize>,
 ) -> Result<FleetUpdate, Error> {
@@ -61,13 +62,33 @@ pub(super) fn update<T: Number>(
         leverage: leverage.as_deref_mut(),
         skipped: skipped.as_deref_mut(),
     };
-    let used = streams.update(Samples { phi: &phi, y: &y, mask }, results, threads)?;
+    let samples = Samples { phi: &phi, y: &y, mask };
+    let used = match elapsed {
+        None => streams.update(samples, results, threads)?,
+        Some(elapsed) => streams.update_after(&read_elapsed(elapsed, count)?, samples, results)?,
+    };
     Ok(FleetUpdate {
         error: error.map(|numbers| T::array(numbers, &[count])),
         leverage: leverage.map(|numbers| T::array(numbers, &[count])),
         skipped: skipped.map(|codes| Array { shape: vec![count], elements: Elements::U8(codes) }),
         used,
     })
+}
+
+/// The time since the last sample of each stream: one for all, or (count,).
+fn read_elapsed<T: Number>(elapsed: View<'_>, count: usize) -> Result<Vec<T>, Error> {
+    let shape = elapsed.shape();
+    if !shape.is_empty() {
+        check_shape("elapsed", shape, &[count])?;
+    }
+    let single = shape.is_empty();
+    let elapsed = T::read(elapsed.numbers());
+    let refused = |x: &&T| !(x.to_f64() >= 0.0 && x.to_f64().is_finite());
+    if let Some(x) = elapsed.iter().find(refused) {
+        let allowed = "finite and not negative";
+        return Err(forgetting::Error::value("elapsed", x.to_f64(), allowed).into());
+    }
+    Ok(if single { vec![elapsed[0]; count] } else { elapsed.into_owned() })
 }
 
 /// φθ of each stream.

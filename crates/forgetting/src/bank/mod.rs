@@ -135,11 +135,12 @@ impl<T: Kernels> Bank<T> {
     }
 
     pub(crate) fn with_units(
-        members: Vec<AnyEstimator<T>>,
+        mut members: Vec<AnyEstimator<T>>,
         mixer: AnyMixer<Dynamic<T>>,
         follows_data: bool,
     ) -> Result<Self, Error> {
         let memory = members::common_memory(&members)?;
+        members.iter_mut().for_each(|member| member.estimate_noise(follows_data));
         let of_members = Dynamic::new(members.len(), 1, 1)?;
         let (count, width) = (members.len(), memory.rows() * memory.targets());
         let zeros = |length| alloc::vec![T::ZERO; length];
@@ -204,16 +205,31 @@ impl<T: Kernels> Bank<T> {
         y: &[T],
         noise: Noise<'_, T>,
     ) -> Result<BankUpdate<'_, T>, Error> {
+        self.update_after(T::ONE, phi, y, noise)
+    }
+
+    /// The same, `elapsed` after the last sample; see [`Estimator::update_after`](crate::Estimator).
+    ///
+    /// # Errors
+    /// Those of [`Bank::update`].
+    pub fn update_after(
+        &mut self,
+        elapsed: T,
+        phi: &[T],
+        y: &[T],
+        noise: Noise<'_, T>,
+    ) -> Result<BankUpdate<'_, T>, Error> {
         let mut outcome = [BankOutcome::default()];
         if matches!(noise, Noise::Unit)
+            && elapsed == T::ONE
             && (phi.len(), y.len()) == (self.memory.parameters(), 1)
             && self.update_many(phi, y, &mut outcome, &mut Kept::default()) == 1
         {
             self.buffers.error[0] = outcome[0].error;
             return Ok(outcome[0].report(&self.buffers.error));
         }
-        self.measure(phi)?;
-        let taken = self.update_members(y, noise);
+        self.measure(phi, noise.deviation())?;
+        let taken = self.update_members(y, noise, elapsed);
         let Taken { forgetting_factor, skipped, gate, windup, asleep } = match taken {
             Ok(taken) => taken,
             Err(error) => {
@@ -228,7 +244,7 @@ impl<T: Kernels> Bank<T> {
         self.learn(skipped.is_none().then_some(leverage));
         if let Some(units) = &mut self.state.units {
             match skipped {
-                None => units.learn(self.buffers.phi.as_ref(), 1),
+                None => units.learn_one(self.buffers.phi.as_mut(), noise.deviation()),
                 Some(_) => units.unchoose(|_, _| {}),
             }
         }

@@ -9,14 +9,14 @@ use crate::sample::{Answer, Noise, Skip};
 use forgetting_kernels::Kernels;
 
 impl<T: Kernels> Bank<T> {
-    /// φ in the units of the members.
-    pub(super) fn measure(&mut self, phi: &[T]) -> Result<(), Error> {
+    /// φ in the units of the members, of which √Γ is the `deviation`.
+    pub(super) fn measure(&mut self, phi: &[T], deviation: T) -> Result<(), Error> {
         let measured = self.buffers.phi.as_mut();
         Error::check_length("phi", phi.len(), measured.len())?;
         match &mut self.state.units {
             None => measured.copy_from_slice(phi),
             Some(units) => {
-                units.choose(phi, |_, _| {});
+                units.choose(phi, deviation, |_, _| {});
                 units.measure(phi, measured);
             }
         }
@@ -28,6 +28,7 @@ impl<T: Kernels> Bank<T> {
         &mut self,
         y: &[T],
         noise: Noise<'_, T>,
+        elapsed: T,
     ) -> Result<Taken<T>, Error> {
         let Buffers { phi, errors, leverages, awake, .. } = &mut self.buffers;
         let BankState { members, mixture, .. } = &mut self.state;
@@ -44,7 +45,7 @@ impl<T: Kernels> Bank<T> {
         let (mut left_out, mut believed, mut most) = (0, T::ZERO, T::ZERO);
         for (i, member) in members.iter_mut().enumerate() {
             let weight = mixture.weights()[i];
-            match member.update_with_noise(phi.as_ref(), y, noise) {
+            match member.update_after(elapsed, phi.as_ref(), y, noise) {
                 Ok(update) => {
                     awake[i] = true;
                     errors[i * width..(i + 1) * width].copy_from_slice(update.error);

@@ -1,9 +1,10 @@
 //! The estimator of which everything is chosen at run time: what fleets and saved states are made of.
 
-use super::Estimator;
+use super::{Estimator, Recursion};
 use crate::memory::Dynamic;
 use crate::rates::AnyRate;
 use crate::rules::Rule;
+use crate::sample::NoiseVariance;
 use crate::weightings::AnyWeighting;
 use forgetting_kernels::kernel::form::Form;
 use forgetting_kernels::Kernels;
@@ -16,6 +17,19 @@ impl<T: Kernels> AnyEstimator<T> {
     /// How every sample changes P, if there is nothing to do but to forget, measure and correct.
     pub(crate) fn form(&self) -> Option<Form<T>> {
         self.recursion.design.steady.map(|steady| steady.form)
+    }
+
+    /// Whether the variance of the noise is to be estimated where Γ is not given, if any choice needs
+    /// it: nothing is known of it from now on.
+    pub(crate) fn estimate_noise(&mut self, estimate: bool) {
+        let Recursion { design, state, .. } = &mut self.recursion;
+        design.estimates_noise = estimate && design.needs_noise_variance();
+        state.noise_variance = design.estimates_noise.then_some(NoiseVariance::UNKNOWN);
+    }
+
+    /// Whether it does so.
+    pub(crate) fn estimates_noise(&self) -> bool {
+        self.recursion.design.estimates_noise
     }
 
     /// Renews the units of the data after the last sample, for which that is due.

@@ -7,6 +7,7 @@ use crate::memory::Memory;
 use crate::monitor::Monitor;
 use crate::rates::Rate;
 use crate::rules::Forgetting;
+use crate::sample::NoiseVariance;
 use crate::weightings::Weighting;
 use forgetting_kernels::kernel::form::Form;
 use forgetting_kernels::Real;
@@ -22,6 +23,8 @@ pub(super) struct Design<F, R, W, M: Memory> {
     pub weighting: W,
     pub gate: AnyGate<M>,
     pub prior: Prior<M>,
+    /// whether the variance of the noise is estimated where Γ is not given
+    pub estimates_noise: bool,
     /// what every sample does to P, if that is all that there is to do
     pub steady: Option<Steady<M::Real>>,
     /// the element of D beyond which P counts as wound up, where no monitor says so
@@ -47,14 +50,24 @@ where
         let memory = prior.memory();
         let plain =
             (memory.rows(), memory.targets()) == (1, 1) && weighting.is_equal() && gate.is_open();
-        let steady = rate
-            .constant()
-            .filter(|_| plain)
-            .map(|lambda| lambda.max(M::Real::EPSILON))
-            .and_then(|lambda| rule.form(lambda).map(|form| Steady { lambda, form }));
+        let steady =
+            rate.constant().filter(|_| plain).map(|lambda| lambda.max(M::Real::EPSILON)).and_then(
+                |lambda| rule.form(lambda, M::Real::ONE).map(|form| Steady { lambda, form }),
+            );
         let windup = M::Real::from_f64(WINDUP);
         let windup_limit = windup * prior.factor().largest();
-        Self { rule, rate, weighting, gate, prior, steady, windup_limit }
+        let estimates_noise = prior.is_of_data();
+        let mut design =
+            Self { rule, rate, weighting, gate, prior, estimates_noise, steady, windup_limit };
+        design.estimates_noise &= design.needs_noise_variance();
+        design
+    }
+
+    /// Whether rate, weighting or gate judge errors by their size.
+    pub fn needs_noise_variance(&self) -> bool {
+        self.rate.needs_noise_variance()
+            || self.weighting.needs_noise_variance()
+            || self.gate.needs_noise_variance()
     }
 
     /// The same with another gate.
@@ -71,6 +84,7 @@ where
             rule: self.rule.start(memory),
             rate: self.rate.start(memory),
             samples: 0,
+            noise_variance: self.estimates_noise.then_some(NoiseVariance::UNKNOWN),
             factor,
         }
     }

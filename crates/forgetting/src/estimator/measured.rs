@@ -51,17 +51,18 @@ impl<M: Memory> Measured<M> {
         recursion: &mut Recursion<F, R, W, M>,
         (phi, y): (&[M::Real], &[M::Real]),
         noise: Noise<'_, M::Real>,
+        elapsed: M::Real,
     ) -> Result<Report<M::Real>, Error> {
         Error::check_length("phi", phi.len(), self.phi.as_ref().len())?;
         let n = recursion.design.prior.memory().parameters();
-        let theta = recursion.state.theta.as_mut();
-        self.units.choose(phi, |i, reciprocal| {
+        let (theta, deviation) = (recursion.state.theta.as_mut(), noise.deviation());
+        self.units.choose(phi, deviation, |i, reciprocal| {
             theta.iter_mut().skip(i).step_by(n).for_each(|theta| *theta /= reciprocal);
         });
         self.units.measure(phi, self.phi.as_mut());
-        let report = recursion.update(self.phi.as_ref(), y, noise);
+        let report = recursion.update(self.phi.as_ref(), y, noise, elapsed);
         if matches!(report, Ok(Report { skipped: None, .. })) {
-            self.units.learn(self.phi.as_ref(), 1);
+            self.units.learn_one(self.phi.as_mut(), deviation);
             self.follow(recursion);
         } else {
             self.take_back(recursion.state.theta.as_mut());

@@ -145,9 +145,31 @@ where
         y: &[M::Real],
         noise: Noise<'_, M::Real>,
     ) -> Result<Update<'_, M::Real>, Error> {
+        self.update_after(M::Real::ONE, phi, y, noise)
+    }
+
+    /// Takes a sample `elapsed` after the last one: a forgetting factor λ of one unit of time is
+    /// λ^elapsed, at least 1/1024, and process noise Q is elapsed Q. [`Estimator::update_with_noise`]
+    /// counts samples: each takes one unit of time.
+    ///
+    /// Without a sample in between, gaps add up exactly for rules that forget everywhere. Rules that
+    /// forget where the sample informs (`subspace`, `directional`, …) forget for the whole time there,
+    /// and nothing elsewhere. `multiple`, `data_dependent` and functions of the user's count samples.
+    ///
+    /// # Errors
+    /// [`Error`] names what was wrong; the estimator is as it was, bit for bit.
+    #[inline]
+    pub fn update_after(
+        &mut self,
+        elapsed: M::Real,
+        phi: &[M::Real],
+        y: &[M::Real],
+        noise: Noise<'_, M::Real>,
+    ) -> Result<Update<'_, M::Real>, Error> {
+        let (recursion, sample) = (&mut self.recursion, (phi, y));
         let report = match &mut self.measured {
-            None => self.recursion.update(phi, y, noise)?,
-            Some(measured) => measured.update(&mut self.recursion, (phi, y), noise)?,
+            None => recursion.update(phi, y, noise, elapsed)?,
+            Some(measured) => measured.update(recursion, sample, noise, elapsed)?,
         };
         Ok(self.recursion.complete(report))
     }

@@ -76,25 +76,27 @@ where
         Self { state: design.start(false), design, buffers }
     }
 
-    /// Takes a sample with the noise covariance Γ = `noise`.
+    /// Takes a sample with the noise covariance Γ = `noise`, so much time after the last one.
     #[inline]
     pub fn update(
         &mut self,
         phi: &[M::Real],
         y: &[M::Real],
         noise: Noise<'_, M::Real>,
+        elapsed: M::Real,
     ) -> Result<Report<M::Real>, Error> {
         let n = self.design.prior.memory().parameters();
         let mut outcome = [Outcome::default()];
         if phi.len() == n
             && y.len() == 1
             && matches!(noise, Noise::Unit)
+            && elapsed == M::Real::ONE
             && self.update_many(phi, y, &mut outcome, &mut []) == 1
         {
             self.buffers.sample.innovations.as_mut()[0] = outcome[0].error;
             return Ok(self.report_of(&outcome[0]));
         }
-        self.update_in_steps(phi, y, noise)
+        self.update_in_steps(phi, y, noise, elapsed)
     }
 
     /// What is reported, with the numbers that are in the buffers.

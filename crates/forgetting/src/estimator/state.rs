@@ -6,6 +6,7 @@ use crate::memory::Memory;
 use crate::monitor::Monitor;
 use crate::rates::Rate;
 use crate::rules::Forgetting;
+use crate::sample::NoiseVariance;
 use forgetting_kernels::Real;
 
 /// θ, P, what rule and rate remember, the number of samples, and the monitor if there is one.
@@ -18,6 +19,8 @@ pub(crate) struct RecursionState<F: Forgetting<M>, R: Rate<M>, M: Memory> {
     /// samples used
     pub samples: u64,
     pub monitor: Option<Monitor<M>>,
+    /// where Γ is not given, if a choice judges errors by their size
+    pub noise_variance: Option<NoiseVariance<M::Real>>,
 }
 
 impl<F: Forgetting<M>, R: Rate<M>, M: Memory> State<M::Real> for RecursionState<F, R, M> {
@@ -30,6 +33,9 @@ impl<F: Forgetting<M>, R: Rate<M>, M: Memory> State<M::Real> for RecursionState<
         if let Some(monitor) = &mut self.monitor {
             monitor.visit(visitor);
         }
+        if let Some(noise_variance) = &mut self.noise_variance {
+            noise_variance.visit(visitor);
+        }
     }
 
     fn is_sound(&self) -> bool {
@@ -39,5 +45,6 @@ impl<F: Forgetting<M>, R: Rate<M>, M: Memory> State<M::Real> for RecursionState<
             && self.rate.is_sound()
             && self.samples <= MOST_SAMPLES
             && self.monitor.as_ref().is_none_or(State::is_sound)
+            && self.noise_variance.as_ref().is_none_or(State::is_sound)
     }
 }

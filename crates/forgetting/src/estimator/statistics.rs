@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::gates::{AnyGate, Gate};
 use crate::memory::Memory;
 use crate::sample::{leverage, not_finite, out_of_range, whiten_errors};
-use crate::sample::{Answer, Evidence, Needs, Sample, Work};
+use crate::sample::{Answer, Evidence, Needs, NoiseVariance, Sample, Work};
 use crate::weightings::Weighting;
 use forgetting_kernels::Real;
 
@@ -21,6 +21,8 @@ pub(super) struct Statistics<T> {
     rows: usize,
     targets: usize,
     samples: u64,
+    /// what errors are judged by: 1 where Γ is given, else their variance, once it is known
+    noise_variance: Option<T>,
 }
 
 impl<T: Real> Statistics<T> {
@@ -51,6 +53,7 @@ impl<T: Real> Statistics<T> {
             rows: memory.rows(),
             targets: memory.targets(),
             samples,
+            noise_variance: Some(T::ONE),
         })
     }
 
@@ -78,6 +81,16 @@ impl<T: Real> Statistics<T> {
                 mean(sum, self.targets)
             };
         }
+    }
+
+    /// Has errors judged by this estimate of their variance; returns it with what the sample adds.
+    #[inline]
+    pub fn judge_by(&mut self, mut estimate: NoiseVariance<T>) -> NoiseVariance<T> {
+        self.noise_variance = estimate.known();
+        let rows = T::from_f64(self.rows as f64);
+        let (squared, leverage) = (self.squared_error / rows, self.leverage / rows);
+        estimate.learn(squared, self.rows * self.targets, leverage);
+        estimate
     }
 
     /// What `gate` decides about the sample.
@@ -171,7 +184,7 @@ impl<T: Real> Statistics<T> {
         factor: &'a Factor<M>,
         errors: &'a [T],
     ) -> Evidence<'a, 'b, M> {
-        let Self { squared_error, leverage, normalized_error, rows, targets, samples, .. } = *self;
+        let Self { squared_error, leverage, normalized_error, rows, targets, .. } = *self;
         Evidence {
             sample,
             factor,
@@ -181,7 +194,8 @@ impl<T: Real> Statistics<T> {
             normalized_error,
             rows,
             targets,
-            samples,
+            samples: self.samples,
+            noise_variance: self.noise_variance,
         }
     }
 }

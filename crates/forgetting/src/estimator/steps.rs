@@ -10,12 +10,20 @@ use crate::gates::Gate;
 use crate::memory::Memory;
 use crate::rates::Rate;
 use crate::rules::{Forgetting, Forgotten, Step};
-use crate::sample::{leverage, measure_rows, whiten};
-use crate::sample::{Answer, Noise, Sample, Skip};
+use crate::sample::{check_elapsed, factor_after, leverage, measure_rows, whiten};
+use crate::sample::{Answer, Needs, Noise, NoiseVariance, Sample, Skip};
 use crate::weightings::Weighting;
 use forgetting_kernels::kernel::form::Form;
 use forgetting_kernels::kernel::watch::Observation;
 use forgetting_kernels::Real;
+
+/// A sample that can be used.
+struct Admitted<T> {
+    statistics: Statistics<T>,
+    gate: Answer,
+    /// with what the sample tells of it, where it is estimated
+    noise_variance: Option<NoiseVariance<T>>,
+}
 
 impl<F, R, W, M> Recursion<F, R, W, M>
 where
@@ -31,8 +39,10 @@ where
         phi: &[M::Real],
         y: &[M::Real],
         noise: Noise<'_, M::Real>,
+        elapsed: M::Real,
     ) -> Result<Report<M::Real>, Error> {
-        let (statistics, gate) = self.admit(phi, y, noise)?;
+        check_elapsed(elapsed)?;
+        let Admitted { statistics, gate, noise_variance } = self.admit(phi, y, noise)?;
         let Self { design, state, buffers } = self;
         let (memory, squares) = (design.prior.memory(), statistics.squared_regressors);
         let buffer = &mut buffers.sample;
@@ -41,7 +51,8 @@ where
         let lambda = match gate {
             Answer::Update => {
                 let evidence = statistics.evidence(&sample, &state.factor, clipped);
-                usable(design.rate.forgetting_factor(&state.rate, &evidence)?)?
+                let lambda = usable(design.rate.forgetting_factor(&state.rate, &evidence)?)?;
+                factor_after(lambda, elapsed)
             }
             Answer::Freeze | Answer::Hold => M::Real::ONE,
         };
@@ -49,6 +60,7 @@ where
             factor: &mut state.factor,
             sample: &mut sample,
             forgetting_factor: lambda,
+            elapsed,
             work: &mut buffers.work,
         };
         let rule = (&design.rule, &mut state.rule);
@@ -59,6 +71,9 @@ where
             let evidence = statistics.evidence(&sample, &state.factor, clipped);
             design.rate.learn(&mut state.rate, &evidence, lambda);
             state.samples += 1;
+        }
+        if noise_variance.is_some() {
+            state.noise_variance = noise_variance;
         }
         // what the rule made of the sample is told apart
         let noise = sample.scaled() * sample.scaled();
@@ -100,9 +115,9 @@ where
         phi: &[M::Real],
         y: &[M::Real],
         noise: Noise<'_, M::Real>,
-    ) -> Result<(Statistics<M::Real>, Answer), Error> {
+    ) -> Result<Admitted<M::Real>, Error> {
         let Design { rate, weighting, gate, prior, .. } = &self.design;
-        let RecursionState { factor, theta, samples, .. } = &self.state;
+        let RecursionState { factor, theta, samples, noise_variance, .. } = &self.state;
         let Buffers { sample: buffer, work, .. } = &mut self.buffers;
         let memory = prior.memory();
         let squares = buffer.load(memory, theta.as_ref(), phi, y)?;
@@ -111,14 +126,17 @@ where
         let unit = matches!(noise, Noise::Unit);
         let squares = if unit { squares } else { sample.squared_regressors() };
         let mut statistics = Statistics::of(memory, &sample, squares, *samples)?;
-        let needs = rate.needs().max(weighting.needs()).max(gate.needs());
+        let noise_variance = noise_variance.filter(|_| unit);
+        let of_noise = noise_variance.map_or(Needs::Errors, |_| Needs::Leverage);
+        let needs = rate.needs().max(weighting.needs()).max(gate.needs()).max(of_noise);
         let free = (buffer.remaining.as_mut(), buffer.noise.as_mut());
         statistics.compute(needs, factor, &sample, work, free);
-        let answer = statistics.ask(gate, &sample, factor)?;
-        if answer != Answer::Hold {
+        let noise_variance = noise_variance.map(|estimate| statistics.judge_by(estimate));
+        let gate = statistics.ask(gate, &sample, factor)?;
+        if gate != Answer::Hold {
             statistics.weigh(weighting, &mut sample, buffer.clipped.as_mut(), factor)?;
         }
-        Ok((statistics, answer))
+        Ok(Admitted { statistics, gate, noise_variance })
     }
 }
 
@@ -132,10 +150,10 @@ fn forget_and_measure<F: Forgetting<M>, M: Memory>(
     (theta, remaining): (&mut [M::Real], &mut M::Errors),
     diagnostics: &mut Diagnostics<M>,
 ) -> Result<(Forgotten, M::Real), Error> {
-    let Step { factor, sample, forgetting_factor, work } = step;
+    let Step { factor, sample, forgetting_factor, elapsed, work } = step;
     diagnostics.record_sample(sample);
     let form = match (gate, sample.rows()) {
-        (Answer::Update, 1) => rule.form(forgetting_factor),
+        (Answer::Update, 1) => rule.form(forgetting_factor, elapsed),
         (Answer::Freeze, 1) => Some(Form::Scale { growth: M::Real::ONE }),
         _ => None,
     };
@@ -149,18 +167,20 @@ fn forget_and_measure<F: Forgetting<M>, M: Memory>(
         return Ok((Forgotten::skipped(reason), leverage(factor, sample)));
     }
     if gate == Answer::Freeze {
-        rule.follow(state, Step { factor, sample, forgetting_factor, work });
+        rule.follow(state, Step { factor, sample, forgetting_factor, elapsed, work });
     }
     if let Some(form) = form {
         if let (Answer::Update, Some(factor)) = (gate, diagnostics.copy_prior(factor)) {
-            rule.forget(state, Step { factor, sample, forgetting_factor, work })?;
+            rule.forget(state, Step { factor, sample, forgetting_factor, elapsed, work })?;
         }
         let (f, scratch) = (sample.row(0), work.scratch.as_mut());
         let measured = factor.measure(form, (f, squares), scratch, (theta, sample.error(0)))?;
         return Ok((forgotten(form, measured.forgot, factor.parameters()), measured.leverage));
     }
     let forgotten = match gate {
-        Answer::Update => rule.forget(state, Step { factor, sample, forgetting_factor, work })?,
+        Answer::Update => {
+            rule.forget(state, Step { factor, sample, forgetting_factor, elapsed, work })?
+        }
         Answer::Freeze | Answer::Hold => Forgotten::rank(0),
     };
     diagnostics.record_prior(factor, work);

@@ -11,8 +11,8 @@
 //! | | otherwise | hold, freeze | hold |
 //!
 //! The error is whitened by Γ: `width` is in standard deviations of the noise where Γ is its
-//! covariance, and in units of y where Γ is not given, which is 1. It is the error itself, not
-//! divided by √(1 + φ̄Pφ̄ᵀ) and not weighted.
+//! covariance, and in units of y where P₀ is given and Γ is not, which is then 1. It is the error
+//! itself, not divided by √(1 + φ̄Pφ̄ᵀ) and not weighted.
 //!
 //! - While the model explains the data to within `width`, nothing is forgotten: with hold θ and P
 //!   stay as they are, with freeze P still shrinks as the data say. Neither can wind up.
@@ -21,6 +21,8 @@
 //!   is to learn from the tails only, and slowly.
 //! - An error that is small by chance holds a sample that would have told much, so that hold
 //!   learns later than it could. Freeze does not.
+//! - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
+//!   until five have told it, every sample passes.
 //! - Cost: O(p m). State: none.
 //! - Use it against drift in quiet times, and where the parameters change seldom: `freeze` then
 //!   averages on, and forgets when the model no longer fits.
@@ -73,9 +75,14 @@ impl<M: Memory> Gate<M> for DeadZone<M> {
         otherwise::describe(self.otherwise, each);
     }
 
+    fn needs_noise_variance(&self) -> bool {
+        true
+    }
+
     #[inline]
     fn answer(&self, evidence: &Evidence<'_, '_, M>) -> Result<Answer, Error> {
-        let passes = evidence.largest_squared_error().sqrt() > self.width;
+        let r = evidence.standardized(evidence.largest_squared_error()).sqrt();
+        let passes = r > self.width || evidence.noise_variance.is_none();
         Ok(if passes { Answer::Update } else { self.otherwise })
     }
 }

@@ -31,6 +31,12 @@ pub trait Gate<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
         Needs::Errors
     }
 
+    /// Whether errors are judged by their size: where no Γ is given, the variance of the noise is
+    /// estimated for it.
+    fn needs_noise_variance(&self) -> bool {
+        false
+    }
+
     /// Whether every sample passes, so that it need not be asked.
     fn is_open(&self) -> bool {
         false
@@ -47,6 +53,7 @@ registry! {
     "gate", "gates", GATES, AnyGate: Gate {
         #[inline]
         fn needs(&self) -> Needs;
+        fn needs_noise_variance(&self) -> bool;
         #[inline]
         fn is_open(&self) -> bool;
         #[inline]

@@ -18,6 +18,8 @@
 //! - φ̄ and e are whitened by Γ and weighted: λ does not depend on the units of y. Targets are
 //!   averaged.
 //! - Should Z or Ψ leave the range of the number type, where P has wound up, both start again at 0.
+//! - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
+//!   until five have told it, errors count as 0.
 //! - Cost: O(n³/6 + p n²), for the elements of P. State: Z, Ψ and the next λ, n² + m n + 1 numbers.
 //! - Use it for slow drift when n is small; `gradient` costs nothing beside.
 //!
@@ -210,6 +212,10 @@ impl<M: Memory> Rate<M> for ExactGradient<M> {
         }
     }
 
+    fn needs_noise_variance(&self) -> bool {
+        true
+    }
+
     #[inline]
     fn forgetting_factor(
         &self,
@@ -221,8 +227,9 @@ impl<M: Memory> Rate<M> for ExactGradient<M> {
 
     fn learn(&self, state: &mut Self::State, evidence: &Evidence<'_, '_, M>, lambda: M::Real) {
         let Evidence { sample, factor, .. } = *evidence;
-        let ascent = state.ascent(sample) / M::Real::from_f64(evidence.targets as f64);
-        state.next = self.limits.clip(lambda + self.step_size * ascent);
+        let ascent = evidence.standardized(state.ascent(sample));
+        let ascent = ascent / M::Real::from_f64(evidence.targets as f64);
+        state.next = self.limits.clip(state.next + self.step_size * ascent);
         state.follow_covariance(factor, sample, lambda);
         state.follow_theta(sample);
         state.restart_if_lost();

@@ -19,6 +19,8 @@
 //!   about N₀ samples, N₀/p with p rows.
 //! - e is whitened by Γ and clipped by the weighting, so that λ does not depend on the units of y:
 //!   σ² is the variance of the whitened noise, 1 where Γ is the noise covariance.
+//! - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
+//!   until five have told it, errors count as 0.
 //! - Cost: O(p n²/2 + p² n). State: the next λ.
 //! - Use it when the noise variance is known and constant; else `noise_power`.
 //!
@@ -104,10 +106,15 @@ impl<M: Memory> Rate<M> for Fortescue<M> {
         Ok(self.limits.clip(next.0))
     }
 
+    fn needs_noise_variance(&self) -> bool {
+        true
+    }
+
     #[inline]
     fn learn(&self, next: &mut Self::State, evidence: &Evidence<'_, '_, M>, _: M::Real) {
         let total = self.memory * self.noise_variance;
-        next.0 = self.limits.clip(M::Real::ONE - evidence.normalized_error / total);
+        let squared = evidence.standardized(evidence.normalized_error);
+        next.0 = self.limits.clip(M::Real::ONE - squared / total);
     }
 }
 

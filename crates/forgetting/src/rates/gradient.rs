@@ -25,6 +25,8 @@
 //!   out: `smallest` does its work.
 //! - e is whitened by Γ and clipped by the weighting: λ does not depend on the units of y. ‖e‖² is
 //!   the sum over the p rows, averaged over targets.
+//! - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
+//!   until five have told it, errors count as 0.
 //! - Cost: O(1). State: six numbers.
 //! - Use it for slow, steady drift in noise whose variance is stationary.
 //!
@@ -147,7 +149,8 @@ impl<M: Memory> Gradient<M> {
     #[inline]
     fn next(&self, mut slope: Slope<M::Real>, evidence: &Evidence<'_, '_, M>) -> Slope<M::Real> {
         let n = evidence.factor.parameters();
-        let squared = evidence.squared_error / M::Real::from_f64(evidence.rows as f64);
+        let squared = evidence.standardized(evidence.squared_error);
+        let squared = squared / M::Real::from_f64(evidence.rows as f64);
         slope.errors = slope.errors.with(squared, &self.memories, n, evidence.samples);
         let lambda = slope.last;
         let Model { zeta, zeta_slope, h_slope, .. } = slope.advance(lambda, n);
@@ -175,6 +178,10 @@ impl<M: Memory> Rate<M> for Gradient<M> {
 
     fn start(&self, _: M) -> Self::State {
         Slope::start(self.limits.largest())
+    }
+
+    fn needs_noise_variance(&self) -> bool {
+        true
     }
 
     #[inline]

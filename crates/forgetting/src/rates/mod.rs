@@ -44,6 +44,12 @@ pub trait Rate<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
         Needs::Errors
     }
 
+    /// Whether errors are judged by their size: where no Γ is given, the variance of the noise is
+    /// estimated for it.
+    fn needs_noise_variance(&self) -> bool {
+        false
+    }
+
     /// λ, if it is the same for every sample and nothing is learned.
     fn constant(&self) -> Option<M::Real> {
         None
@@ -79,6 +85,7 @@ registry! {
     "rate", "rates", RATES, AnyRate [AnyRateState]: Rate {
         #[inline]
         fn needs(&self) -> Needs;
+        fn needs_noise_variance(&self) -> bool;
         fn constant(&self) -> Option<M::Real>;
         #[inline]
         fn forgetting_factor(

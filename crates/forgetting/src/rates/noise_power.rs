@@ -23,6 +23,8 @@
 //!   ours.
 //! - e is whitened by Γ and clipped by the weighting: λ does not depend on the units of y. ‖e‖² is
 //!   the sum over the p rows, averaged over targets.
+//! - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
+//!   until five have told it, errors count as 0.
 //! - Cost: O(p n²/2) for tr S. State: three averages and the next λ.
 //! - Use it when the noise is unknown or its variance changes slowly.
 //!
@@ -145,9 +147,14 @@ impl<M: Memory> Rate<M> for NoisePower<M> {
         Ok(self.limits.clip(powers.next))
     }
 
+    fn needs_noise_variance(&self) -> bool {
+        true
+    }
+
     #[inline]
     fn learn(&self, powers: &mut Self::State, evidence: &Evidence<'_, '_, M>, _: M::Real) {
-        let Evidence { squared_error, leverage, samples, factor, .. } = *evidence;
+        let Evidence { leverage, samples, factor, .. } = *evidence;
+        let squared_error = evidence.standardized(evidence.squared_error);
         let (n, p) = (factor.parameters(), M::Real::from_f64(evidence.rows as f64));
         let spread = leverage / p;
         powers.errors = powers.errors.with(squared_error / p, &self.memories, n, samples);

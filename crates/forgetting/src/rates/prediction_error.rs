@@ -18,6 +18,8 @@
 //!   Small is sensitive.
 //! - λ_k is in (1 − 1/p, 1] without the clip, and is 1 when the error is 0: it is `largest` < 1
 //!   that bounds the information.
+//! - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
+//!   until five have told it, errors count as 0.
 //! - Cost: O(p n²/2) for tr S. State: none.
 //! - Use it when jumps show in the error at once and the noise is small beside them.
 //!
@@ -81,9 +83,14 @@ impl<M: Memory> Rate<M> for PredictionError<M> {
         Needs::Leverage
     }
 
+    fn needs_noise_variance(&self) -> bool {
+        true
+    }
+
     #[inline]
     fn forgetting_factor(&self, (): &(), evidence: &Evidence<'_, '_, M>) -> Result<M::Real, Error> {
-        let Evidence { squared_error, leverage, rows, .. } = *evidence;
+        let Evidence { leverage, rows, .. } = *evidence;
+        let squared_error = evidence.standardized(evidence.squared_error);
         let effect = squared_error / (self.sensitivity + squared_error);
         let spread = M::Real::from_f64(rows as f64) + leverage;
         Ok(self.limits.clip(M::Real::ONE - effect / spread))

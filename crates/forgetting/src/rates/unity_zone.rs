@@ -17,6 +17,8 @@
 //!   reaches to three standard deviations of the noise, if Γ is its covariance.
 //! - e is whitened by Γ and clipped by the weighting: λ does not depend on the units of y. ‖e‖² is
 //!   the sum over the p rows, averaged over targets.
+//! - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
+//!   until five have told it, errors count as 0.
 //! - Cost: O(1). State: none.
 //! - Use it for parameters that are constant but for jumps.
 //!
@@ -72,9 +74,14 @@ impl<M: Memory> Rate<M> for UnityZone<M> {
 
     fn start(&self, _: M) {}
 
+    fn needs_noise_variance(&self) -> bool {
+        true
+    }
+
     #[inline]
     fn forgetting_factor(&self, (): &(), evidence: &Evidence<'_, '_, M>) -> Result<M::Real, Error> {
-        let squared = evidence.squared_error / M::Real::from_f64(evidence.rows as f64);
+        let squared = evidence.standardized(evidence.squared_error);
+        let squared = squared / M::Real::from_f64(evidence.rows as f64);
         let level = libm::floor((self.sensitivity * squared).to_f64() + 0.5);
         let (smallest, one) = (self.limits.smallest(), M::Real::ONE);
         let way = M::Real::from_f64(libm::exp2(-level));

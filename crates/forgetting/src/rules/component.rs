@@ -39,6 +39,7 @@ use crate::choice::{
 use crate::memory::state::{State, Visitor};
 use crate::error::Error;
 use crate::memory::Memory;
+use crate::sample::factor_after;
 use forgetting_kernels::Real;
 
 const BLOCKS: Parameter = Parameter::elements(
@@ -127,16 +128,18 @@ impl<M: Memory> Component<M> {
         Self { cyclic: true, ..self }
     }
 
-    /// λ_b
+    /// λ_b^Δt, `common` being that already.
     #[inline]
-    fn factor(&self, block: usize, common: M::Real) -> M::Real {
-        self.forgetting_factors.as_ref().map_or(common, |factors| factors.as_ref()[block])
+    fn factor(&self, block: usize, common: M::Real, elapsed: M::Real) -> M::Real {
+        let own = self.forgetting_factors.as_ref();
+        own.map_or(common, |factors| factor_after(factors.as_ref()[block], elapsed))
     }
 
-    /// The smallest λ_b.
+    /// The smallest of them.
     #[inline]
-    fn smallest(&self, common: M::Real) -> M::Real {
-        (0..self.blocks.count()).fold(M::Real::ONE, |least, b| least.min(self.factor(b, common)))
+    fn smallest(&self, common: M::Real, elapsed: M::Real) -> M::Real {
+        let factors = (0..self.blocks.count()).map(|b| self.factor(b, common, elapsed));
+        factors.fold(M::Real::ONE, M::Real::min)
     }
 }
 
@@ -171,7 +174,7 @@ impl<M: Memory> Forgetting<M> for Component<M> {
 
     fn bounds(&self, constants: &Constants) -> Bounds {
         let common = M::Real::from_f64(constants.forgetting_factors.1);
-        let factors = (0..self.blocks.count()).map(|b| self.factor(b, common).to_f64());
+        let factors = (0..self.blocks.count()).map(|b| self.factor(b, common, M::Real::ONE).to_f64());
         let largest = factors.fold(0.0, f64::max);
         if !self.cyclic {
             return Bounds { below: constants.least_remembered(largest), above: None };
@@ -185,8 +188,8 @@ impl<M: Memory> Forgetting<M> for Component<M> {
 
     #[inline]
     fn forget(&self, turns: &mut Turns<M>, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
-        let (factor, common) = (step.factor, step.forgetting_factor);
-        let (smallest, count) = (self.smallest(common), self.blocks.count());
+        let (factor, common, elapsed) = (step.factor, step.forgetting_factor, step.elapsed);
+        let (smallest, count) = (self.smallest(common, elapsed), self.blocks.count());
         if count == 1 {
             factor.scale(M::Real::ONE / smallest)?;
             let rank = if smallest < M::Real::ONE { factor.parameters() } else { 0 };
@@ -197,7 +200,7 @@ impl<M: Memory> Forgetting<M> for Component<M> {
         let due = || {
             let ranges = self.blocks.ranges().enumerate();
             let due = ranges.filter(move |&(b, _)| turn.is_none_or(|turn| turn == b));
-            due.map(|(b, range)| (growth(self.factor(b, common), samples), range))
+            due.map(|(b, range)| (growth(self.factor(b, common, elapsed), samples), range))
                 .filter(|(weight, _)| *weight > M::Real::ZERO)
         };
         let variances = &mut step.work.first.as_mut()[..factor.parameters()];

@@ -227,14 +227,14 @@ impl<M: Memory, F: Forgetting<M>> Forgetting<M> for CovarianceResetting<M, F> {
 
     #[inline]
     fn forget(&self, state: &mut Self::State, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
-        let Step { factor, sample, forgetting_factor, work } = step;
+        let Step { factor, sample, forgetting_factor, elapsed, work } = step;
         let Resetting { rule: inner, watch, before } = state;
         let progress = watch.look(&self.criterion, factor, sample, work.first.as_mut());
         if progress.met {
             before.copy_from(factor);
             factor.copy_from(&self.covariance);
         }
-        let step = Step { factor: &mut *factor, sample, forgetting_factor, work };
+        let step = Step { factor: &mut *factor, sample, forgetting_factor, elapsed, work };
         let done = act(&self.rule, inner, step, progress.met);
         let used = matches!(done, Ok(Forgotten { skipped: None, .. }));
         if used {

@@ -72,7 +72,7 @@ impl<M: Memory> Forgetting<M> for Exponential<M> {
     }
 
     #[inline]
-    fn form(&self, forgetting_factor: M::Real) -> Option<Form<M::Real>> {
+    fn form(&self, forgetting_factor: M::Real, _: M::Real) -> Option<Form<M::Real>> {
         Some(Form::Scale { growth: M::Real::ONE / forgetting_factor })
     }
 

@@ -32,8 +32,11 @@ pub struct Step<'a, 'b, M: Memory> {
     pub factor: &'a mut Factor<M>,
     /// the whitened sample; rows that are dropped are neither forgotten nor learned from
     pub sample: &'a mut Sample<'b, M>,
-    /// λ_k in (0, 1]
+    /// λ_k in (0, 1], of the time that has passed
     pub forgetting_factor: M::Real,
+    /// the time that has passed since the last sample, in units in which whatever a rule forgets by
+    /// itself is stated: 1 where samples count
+    pub elapsed: M::Real,
     /// buffers to use freely
     pub work: &'a mut Work<M>,
 }
@@ -111,13 +114,14 @@ pub trait Forgetting<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
         Bounds::default()
     }
 
-    /// What the rule does with this forgetting factor for a sample of one row, if it keeps no state
-    /// and it is one of the ways that the factor forgets in while it measures.
+    /// What the rule does with this forgetting factor, `elapsed` after the last sample, for a sample of
+    /// one row, if it keeps no state and it is one of the ways that the factor forgets in while it
+    /// measures.
     ///
     /// The estimator then does not call [`Forgetting::forget`], which must do the same.
     #[inline]
-    fn form(&self, forgetting_factor: M::Real) -> Option<Form<M::Real>> {
-        let _ = forgetting_factor;
+    fn form(&self, forgetting_factor: M::Real, elapsed: M::Real) -> Option<Form<M::Real>> {
+        let _ = (forgetting_factor, elapsed);
         None
     }
 
@@ -160,7 +164,7 @@ registry! {
         fn is_bounded(&self) -> bool;
         fn bounds(&self, constants: &Constants) -> Bounds;
         #[inline]
-        fn form(&self, forgetting_factor: M::Real) -> Option<Form<M::Real>>;
+        fn form(&self, forgetting_factor: M::Real, elapsed: M::Real) -> Option<Form<M::Real>>;
         #[inline(never)]
         fn follow(&self, state: &mut State, step: Step<'_, '_, M>);
         fn change_units(&self, state: &mut State, ratios: &[M::Real]);

@@ -70,7 +70,7 @@ impl<M: Memory> Forgetting<M> for NoForgetting<M> {
     }
 
     #[inline]
-    fn form(&self, _: M::Real) -> Option<Form<M::Real>> {
+    fn form(&self, _: M::Real, _: M::Real) -> Option<Form<M::Real>> {
         Some(Form::Scale { growth: M::Real::ONE })
     }
 

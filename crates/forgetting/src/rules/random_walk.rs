@@ -25,6 +25,8 @@
 //! - P bounded below (A3): if Q > 0 and φ is bounded.
 //! - Cost: O((p + r) n²), r the rank of Q; O(n³) for a full one, at n ≤ 10 with Q = c·I about twice that
 //!   of `exponential`; cyclic O((p + 1) n²). State: P, and whose turn it is.
+//! - Where the time Δt between samples is given, Q is per unit of it: κ^Δt and (1 − κ^Δt)/(1 − κ) Q, or
+//!   Δt Q without a bound, so that gaps without data add up.
 //! - Q is per sample and in units of P: the variance by which θ moves, over the variance of the
 //!   measurement noise (Γ).
 //! - Use it when that ratio is known: the estimate is then the optimal one. With P₀ that follows the
@@ -49,7 +51,7 @@ use crate::choice::{
 use crate::covariance::Factor;
 use crate::rules::cycle::{self, Cycle};
 use crate::rules::root::Root;
-use crate::sample::Work;
+use crate::sample::{factor_after, Work};
 use crate::error::Error;
 use crate::memory::Memory;
 use crate::choice::guarantee::positive;
@@ -123,6 +125,23 @@ struct Turns<T> {
     samples: T,
 }
 
+impl<T: Real> Turns<T> {
+    /// The same where so much time has passed since the last turn of the one before.
+    #[inline]
+    fn after(self, elapsed: T) -> Self {
+        if elapsed == T::ONE {
+            return self;
+        }
+        let Self { scale, samples } = self;
+        if scale == T::ONE {
+            return Self { scale, samples: samples * elapsed };
+        }
+        let kept = factor_after(scale, elapsed);
+        let samples = samples * (T::ONE - kept * kept) / (T::ONE - scale * scale);
+        Self { scale: kept, samples }
+    }
+}
+
 impl<M: Memory> RandomWalk<M> {
     /// With steps of this covariance, P not bounded.
     pub fn new(process_noise: Root<M>) -> Self {
@@ -168,6 +187,18 @@ impl<M: Memory> RandomWalk<M> {
         let (scale, samples) = (libm::exp(0.5 * logarithm), M::Real::from_f64(samples));
         let scale = M::Real::from_f64(scale).max(M::Real::EPSILON);
         Ok(Self { turns: Some(Turns { scale, samples }), ..self })
+    }
+
+    /// How many steps of Q are added in this time: Δt, and with a bound (1 − κ^Δt)/(1 − κ), so that
+    /// P is drawn towards it as in as many steps.
+    #[inline]
+    fn steps(&self, elapsed: M::Real) -> M::Real {
+        let share = (self.largest * self.per_bound).to_f64();
+        if elapsed == M::Real::ONE || !(share > 0.0) {
+            return elapsed;
+        }
+        let kept = libm::exp(elapsed.to_f64() * libm::log1p(-share));
+        M::Real::from_f64((1.0 - kept.max(f64::EPSILON)) / share)
     }
 
     /// P ← P + c·wᵀw for row `j` of the root.
@@ -240,8 +271,8 @@ impl<M: Memory> Forgetting<M> for RandomWalk<M> {
 
     /// A walk, where every parameter walks alike and there are few.
     #[inline]
-    fn form(&self, _: M::Real) -> Option<Form<M::Real>> {
-        let noise = self.process_noise.scalar_given()?;
+    fn form(&self, _: M::Real, elapsed: M::Real) -> Option<Form<M::Real>> {
+        let noise = self.process_noise.scalar_given()? * self.steps(elapsed);
         let few = self.process_noise.parameters() <= FEW;
         let walks = noise >= M::Real::FLOOR || (noise > M::Real::ZERO && self.bound.is_none());
         let every_sample = self.turns.is_none();
@@ -256,16 +287,18 @@ impl<M: Memory> Forgetting<M> for RandomWalk<M> {
     ) -> Result<Forgotten, Error> {
         let rank = self.process_noise.rank();
         if let (Some(turns), Some(cycle), 1..) = (self.turns, cycle, rank) {
+            let turns = turns.after(step.elapsed);
             self.take_turn(cycle.turn(rank), turns, step)?;
             cycle.pass(rank);
             return Ok(Forgotten::rank(1).with_factor(1.0));
         }
-        step.factor.reserve(M::Real::ONE, self.trace)?;
+        let steps = self.steps(step.elapsed);
+        step.factor.reserve(M::Real::ONE, steps * self.trace)?;
         if self.bound.is_some() {
-            step.factor.shrink(shrink(self.largest, self.per_bound));
+            step.factor.shrink(shrink(steps * self.largest, self.per_bound));
         }
         for j in 0..rank {
-            self.add(j, M::Real::ONE, step.factor, step.work);
+            self.add(j, steps, step.factor, step.work);
         }
         Ok(Forgotten::rank(rank).with_factor(1.0))
     }

@@ -117,7 +117,7 @@ impl<M: Memory> Forgetting<M> for Stabilised<M> {
 
     /// A walk, where P_∞ = c·I and parameters are few.
     #[inline]
-    fn form(&self, forgetting_factor: M::Real) -> Option<Form<M::Real>> {
+    fn form(&self, forgetting_factor: M::Real, _: M::Real) -> Option<Form<M::Real>> {
         let limit = self.covariance.scalar_given()?;
         let noise = (M::Real::ONE - forgetting_factor) * limit;
         let walks = noise >= M::Real::FLOOR && self.covariance.parameters() <= FEW;

@@ -100,7 +100,7 @@ impl<M: Memory> Forgetting<M> for Subspace<M> {
     }
 
     #[inline]
-    fn form(&self, forgetting_factor: M::Real) -> Option<Form<M::Real>> {
+    fn form(&self, forgetting_factor: M::Real, _: M::Real) -> Option<Form<M::Real>> {
         let weight = (M::Real::ONE - forgetting_factor) / forgetting_factor;
         Some(Form::Along { weight, dead_zone: DeadZone::Below(self.threshold) })
     }

@@ -7,7 +7,8 @@ use forgetting_kernels::Real;
 
 /// What a rate, a weighting or a gate is shown of a sample.
 ///
-/// Errors are whitened by Γ. A weighting and a gate see them as they are. A rate sees them clipped,
+/// Errors are whitened by Γ, or by nothing where it is estimated: what needs a scale divides by
+/// [`Evidence::noise_variance`]. A weighting and a gate see them as they are. A rate sees them clipped,
 /// that is multiplied by the weight w: an outlier that moves θ little is no reason to forget. No
 /// statistic exceeds [`Real::CEILING`].
 #[derive(Clone, Copy, Debug)]
@@ -30,6 +31,8 @@ pub struct Evidence<'a, 'b, M: Memory> {
     pub targets: usize,
     /// samples used so far, without this one
     pub samples: u64,
+    /// what errors are judged by: 1 where Γ is given, else their variance, once it is known
+    pub noise_variance: Option<M::Real>,
 }
 
 impl<M: Memory> Evidence<'_, '_, M> {
@@ -44,6 +47,16 @@ impl<M: Memory> Evidence<'_, '_, M> {
             errors.fold(M::Real::ZERO, |sum, &e| sum + e * e)
         };
         (0..self.targets).fold(M::Real::ZERO, |largest, target| largest.max(squared(target)))
+    }
+
+    /// A square of errors over the variance of the noise; 0 while that is not known.
+    #[inline]
+    pub fn standardized(&self, squared: M::Real) -> M::Real {
+        let limit = M::Real::CEILING;
+        match self.noise_variance {
+            Some(variance) => (squared / variance).max(-limit).min(limit),
+            None => M::Real::ZERO,
+        }
     }
 }
 

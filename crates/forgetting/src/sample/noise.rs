@@ -18,6 +18,27 @@ pub enum Noise<'a, T> {
     Full(&'a [T]),
 }
 
+impl<T: Real> Noise<'_, T> {
+    /// The standard deviation of the noise, a typical one of several rows; 1 where Γ is not one.
+    pub(crate) fn deviation(&self) -> T {
+        let variance = match *self {
+            Self::Unit => return T::ONE,
+            Self::Scalar(gamma) => gamma,
+            Self::Full(gamma) => {
+                let rows = gamma.len().isqrt();
+                let diagonal = gamma.iter().step_by(rows + 1);
+                diagonal.fold(T::ZERO, |sum, &x| sum + x) / T::from_f64(rows as f64)
+            }
+        };
+        let deviation = variance.sqrt();
+        if deviation > T::ZERO && deviation.is_finite() {
+            deviation
+        } else {
+            T::ONE
+        }
+    }
+}
+
 /// Applies Γ = `noise`; a full one is left factored in `root`.
 #[inline]
 pub fn whiten<M: Memory>(

@@ -7,7 +7,7 @@
 //! | number type | one byte, 4 or 8: the bytes of a number |
 //! | sizes | n, p, m as 32-bit numbers |
 //! | form of P₀ | one byte |
-//! | monitored | one byte, 0 or 1 |
+//! | also kept | one byte, the sum of 1 if monitored and 2 if the noise variance is estimated |
 //! | rule, rate, weighting, gate | each a name and its parameters by name; a rule may be a parameter |
 //! | numbers | the prior, then the state, in the order of `visit` |
 //! | check | CRC-32 of all before it |
@@ -40,6 +40,8 @@ pub use bank::bank_number_type;
 /// The version of the format that is written, and the latest that is read.
 pub const VERSION: u8 = 2;
 const MARK: &[u8; 5] = b"FGRLS";
+const MONITORED: u8 = 1;
+const NOISE_ESTIMATED: u8 = 2;
 
 impl<T: Kernels> AnyEstimator<T> {
     /// The estimator, configuration and state, as bytes.

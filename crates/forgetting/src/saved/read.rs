@@ -2,6 +2,7 @@
 
 use super::{AnyEstimator, AnyGate, AnyRate, AnyWeighting, Dynamic, Error, Estimator, Memory};
 use super::{Box, Open, Prior, Real, Rule, String, Value, Values, Vec, Visitor};
+use super::{MONITORED, NOISE_ESTIMATED};
 use crate::rules::RULES;
 use forgetting_kernels::Kernels;
 
@@ -173,7 +174,11 @@ pub fn header<T: Kernels>(
     }
     let memory = Dynamic::new(reader.size()?, reader.size()?, reader.size()?)?;
     let form = reader.byte()?;
-    let monitored = reader.byte()? == 1;
+    let kept = reader.byte()?;
+    if kept > MONITORED + NOISE_ESTIMATED {
+        return Err(Error::State { reason: "it holds something unknown" });
+    }
+    let monitored = kept & MONITORED != 0;
     // before anything is made of these sizes
     if reader.bytes.len() < least_length(memory, form) {
         return Err(Error::State { reason: "it is truncated" });
@@ -198,6 +203,7 @@ pub fn header<T: Kernels>(
         return Err(Error::State { reason: "its numbers are not those of a prior" });
     }
     let mut estimator = Estimator::new(rule, rate, weighting, prior).with_gate(gate);
+    estimator.estimate_noise(kept & NOISE_ESTIMATED != 0);
     let old_monitor = monitored && version == 1;
     if monitored && !old_monitor {
         estimator.enable_monitor();

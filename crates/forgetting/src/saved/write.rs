@@ -1,7 +1,7 @@
 //! Writing a state.
 
 use super::{AnyEstimator, Error, Forgetting, Gate, Memory, Rate, Real, Vec, Visitor, Weighting};
-use super::{MARK, VERSION};
+use super::{MARK, MONITORED, NOISE_ESTIMATED, VERSION};
 use crate::choice::bytes::write as choice;
 use forgetting_kernels::Kernels;
 
@@ -17,7 +17,8 @@ pub fn header<T: Kernels>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error>
         bytes.extend_from_slice(&(size as u32).to_le_bytes());
     }
     bytes.push(estimator.prior().form());
-    bytes.push(u8::from(estimator.health().is_some()));
+    let (monitored, noise) = (estimator.health().is_some(), estimator.estimates_noise());
+    bytes.push(u8::from(monitored) * MONITORED + u8::from(noise) * NOISE_ESTIMATED);
     let (rule, rate, weighting) = (estimator.rule(), estimator.rate(), estimator.weighting());
     let (of_rule, of_rate) = (rule.about().name, rate.about().name);
     choice(&mut bytes, of_rule, |each| rule.describe(&mut |name, value| each(name, value)))?;

@@ -20,6 +20,8 @@
 //! - c is in standard deviations of the noise, if Γ is its covariance. With 1.345 the estimate of a
 //!   constant that solves Σ w ē = 0 has 95 % of the efficiency of least squares in Gaussian noise;
 //!   the recursion, of which the gain is 1/Σ w, has 92.3 %.
+//! - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
+//!   until five have told it, w = 1.
 //! - Cost: O(p m). State: none.
 //! - Use it when some samples are gross errors. One in φ is not recognized.
 //!
@@ -68,9 +70,13 @@ impl<M: Memory> Weighting<M> for Huber<M> {
         each(THRESHOLD.name, Value::Real(self.threshold.to_f64()));
     }
 
+    fn needs_noise_variance(&self) -> bool {
+        true
+    }
+
     #[inline]
     fn weight(&self, evidence: &Evidence<'_, '_, M>) -> M::Real {
-        let r = evidence.largest_squared_error().sqrt();
+        let r = evidence.standardized(evidence.largest_squared_error()).sqrt();
         if r > self.threshold {
             (self.threshold / r).max(M::Real::FLOOR)
         } else {

@@ -25,6 +25,12 @@ pub trait Weighting<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
         Needs::Errors
     }
 
+    /// Whether errors are judged by their size: where no Γ is given, the variance of the noise is
+    /// estimated for it.
+    fn needs_noise_variance(&self) -> bool {
+        false
+    }
+
     /// Whether w = 1 for every sample.
     fn is_equal(&self) -> bool {
         false
@@ -42,6 +48,7 @@ registry! {
     "weighting", "weightings", WEIGHTINGS, AnyWeighting: Weighting {
         #[inline]
         fn needs(&self) -> Needs;
+        fn needs_noise_variance(&self) -> bool;
         fn is_equal(&self) -> bool;
         #[inline]
         fn weight(&self, evidence: &Evidence<'_, '_, M>) -> M::Real;

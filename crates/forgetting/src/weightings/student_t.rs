@@ -15,6 +15,8 @@
 //! - w is the weight of the maximum likelihood estimate, but never above 1: that would trust a
 //!   sample more than its Γ says.
 //! - Rates see the clipped error w ē.
+//! - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
+//!   until five have told it, w = 1.
 //! - Cost: O(p m). State: none.
 //! - Use it when gross errors are so large that even a clipped one disturbs; `huber` loses less
 //!   when there are none. After a jump of θ it takes longer to believe.
@@ -64,10 +66,15 @@ impl<M: Memory> Weighting<M> for StudentT<M> {
         each(DEGREES.name, Value::Real(self.degrees.to_f64()));
     }
 
+    fn needs_noise_variance(&self) -> bool {
+        true
+    }
+
     #[inline]
     fn weight(&self, evidence: &Evidence<'_, '_, M>) -> M::Real {
         let (nu, p) = (self.degrees, M::Real::from_f64(evidence.rows as f64));
-        let w = (nu + p) / (nu + evidence.largest_squared_error());
+        let squared = evidence.standardized(evidence.largest_squared_error());
+        let w = (nu + p) / (nu + squared);
         w.max(M::Real::FLOOR).min(M::Real::ONE)
     }
 

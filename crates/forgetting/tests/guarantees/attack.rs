@@ -143,8 +143,13 @@ impl Attack {
             let share = if pick(noise, 2) == 0 { 0.0 } else { 1.0 };
             let forgetting_factor = self.factors.0 + share * (self.factors.1 - self.factors.0);
             let (factor_, sample_) = (&mut factor, &mut sample);
-            let step =
-                Step { factor: factor_, sample: sample_, forgetting_factor, work: &mut work };
+            let step = Step {
+                factor: factor_,
+                sample: sample_,
+                forgetting_factor,
+                elapsed: 1.0,
+                work: &mut work,
+            };
             let Ok(outcome) = self.rule.forget(&mut state, step) else { return };
             if outcome.skipped.is_none() {
                 (0..sample.rows()).for_each(|i| {

@@ -61,6 +61,7 @@ fn run_all(name: &str, setting: &Setting, samples: usize, look: &mut dyn FnMut(P
             factor: &mut factor,
             sample: &mut sample,
             forgetting_factor: setting.forgetting_factor,
+            elapsed: 1.0,
             work: &mut work,
         };
         let outcome = rule.forget(&mut state, step);

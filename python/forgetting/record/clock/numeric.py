@@ -9,7 +9,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from forgetting.record.clock.times import Times
-from forgetting.record.clock.units import SECONDS
+from forgetting.words.duration import SECONDS
 
 WRITTEN = (
     (190001, 210012, "%Y%m", "months written as yyyymm"),

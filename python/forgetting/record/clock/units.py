@@ -4,33 +4,8 @@ from __future__ import annotations
 
 import re
 
-SECONDS = {
-    "ns": 1e-9,
-    "us": 1e-6,
-    "µs": 1e-6,
-    "μs": 1e-6,
-    "ms": 1e-3,
-    "msec": 1e-3,
-    "s": 1.0,
-    "sec": 1.0,
-    "secs": 1.0,
-    "second": 1.0,
-    "seconds": 1.0,
-    "sek": 1.0,
-    "min": 60.0,
-    "mins": 60.0,
-    "minute": 60.0,
-    "minutes": 60.0,
-    "h": 3600.0,
-    "hr": 3600.0,
-    "hrs": 3600.0,
-    "hour": 3600.0,
-    "hours": 3600.0,
-    "std": 3600.0,
-    "d": 86400.0,
-    "day": 86400.0,
-    "days": 86400.0,
-}
+from forgetting.words.duration import SECONDS
+
 BEHIND = re.compile(
     r"([\[(/,]\s*(?P<marked>[^\W\d_]+)|[_ ](?P<short>ns|us|µs|μs|ms|s|sec|min|hr?))\s*[\])]?\s*$"
 )

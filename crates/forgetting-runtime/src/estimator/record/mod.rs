@@ -5,11 +5,13 @@ mod outputs;
 mod pause;
 mod run;
 mod shapes;
+mod time;
 
 pub use run::Run;
 
 use crate::configure::check_copies;
 use crate::error::Error;
+use crate::missing::{is_missing, Missing};
 use crate::number::{Number, View};
 use forgetting::{AnyEstimator, Outcome};
 pub(crate) use noise::RecordNoise;
@@ -17,27 +19,26 @@ use outputs::Outputs;
 pub use pause::GoOn;
 pub(crate) use pause::Pause;
 pub(crate) use shapes::Sizes;
+pub(crate) use time::RecordTime;
 
-/// What is done with a sample that has a NaN.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Missing {
-    /// the record is refused
-    Error,
-    /// the sample is left out
-    Skip,
+/// How a record is taken.
+#[derive(Clone, Copy, Debug)]
+pub struct RunOptions<'a> {
+    /// what is done with samples that have a NaN
+    pub missing: Missing,
+    /// names of what is kept; the default outputs if not given
+    pub outputs: Option<&'a [&'a str]>,
+    /// when samples were taken, (T,), or (T + 1,) with the time of the last sample before them: not
+    /// decreasing, in the unit of time in which forgetting is stated. If not given, each sample takes
+    /// one unit, as does the first of (T,).
+    pub time: Option<View<'a>>,
 }
 
-impl Missing {
-    /// The one that `error` or `skip` names.
-    ///
-    /// # Errors
-    /// [`Error::Word`] names `missing`.
-    pub fn named(word: &str) -> Result<Self, Error> {
-        match word {
-            "error" => Ok(Self::Error),
-            "skip" => Ok(Self::Skip),
-            _ => Err(Error::word("missing", word, &["error", "skip"])),
-        }
+impl<'a> RunOptions<'a> {
+    /// These, without times.
+    #[must_use]
+    pub fn new(missing: Missing, outputs: Option<&'a [&'a str]>) -> Self {
+        Self { missing, outputs, time: None }
     }
 }
 
@@ -54,29 +55,32 @@ pub(crate) struct Record<'a, T> {
 pub(super) fn run<T: Number>(
     estimator: &mut AnyEstimator<T>,
     (phi, y, gamma): (View<'_>, View<'_>, Option<View<'_>>),
-    missing: Missing,
-    outputs: &[&str],
+    options: &RunOptions<'_>,
     go_on: GoOn<'_>,
 ) -> Result<Run, Error> {
     let sizes = Sizes::of(estimator.prior().memory(), &phi, &y)?;
+    let outputs = options.outputs.unwrap_or(&Run::DEFAULT_OUTPUTS);
     let mut outputs = Outputs::<T>::named(outputs, sizes)?;
+    let shape_of_y = y.shape().to_vec();
     let (phi, y) = (T::read(phi.numbers()), T::read(y.numbers()));
     let gammas = gamma.map(|gamma| T::read(gamma.numbers()));
     let noise = match (&gamma, &gammas) {
         (Some(gamma), Some(gammas)) => RecordNoise::read(gamma.shape(), gammas, sizes)?,
         _ => RecordNoise::Unit,
     };
-    let record = Record { sizes, phi: &phi, y: &y, noise, missing };
+    let mut time = options.time.map(|time| RecordTime::read(time, sizes)).transpose()?;
+    let record = Record { sizes, phi: &phi, y: &y, noise, missing: options.missing };
     // the state of before is kept until all is done
     check_copies(estimator, 1)?;
     outputs.prepare(estimator);
     let mut pause = Pause::new(go_on, sizes.rows, sizes.parameters);
-    let taken =
-        estimator.all_or_nothing(|estimator| take(estimator, &record, &mut outputs, &mut pause));
+    let taken = estimator.all_or_nothing(|estimator| {
+        take(estimator, (&record, time.as_mut()), &mut outputs, &mut pause)
+    });
     estimator.keep_innovations(false);
     estimator.keep_prior(false);
     taken.map_err(|(sample, error)| Error::Sample { sample, error })?;
-    Ok(outputs.finish(sizes))
+    Ok(outputs.finish(sizes, &shape_of_y))
 }
 
 /// The most samples that an estimator takes together.
@@ -84,19 +88,21 @@ const MOST: usize = 64;
 
 fn take<T: Number>(
     estimator: &mut AnyEstimator<T>,
-    record: &Record<'_, T>,
+    (record, mut time): (&Record<'_, T>, Option<&mut RecordTime<'_>>),
     outputs: &mut Outputs<T>,
     pause: &mut Pause<'_>,
 ) -> Result<(), (usize, forgetting::Error)> {
     let together = matches!(record.noise, RecordNoise::Unit)
         && !outputs.need_every_state()
+        && time.is_none()
         && estimator.takes_many();
     let mut outcomes = [Outcome::default(); MOST];
     let mut k = 0;
     while k < record.sizes.samples {
         let taken = if together { many(estimator, record, k, &mut outcomes, outputs) } else { 0 };
         if taken == 0 {
-            one(estimator, record, k, outputs).map_err(|error| (k, error))?;
+            one(estimator, (record, time.as_deref_mut()), k, outputs)
+                .map_err(|error| (k, error))?;
         }
         pause.after(taken.max(1)).map_err(|error| (k, error))?;
         k += taken.max(1);
@@ -126,19 +132,20 @@ fn many<T: Number>(
 /// Takes the sample at `k`, or leaves it out.
 fn one<T: Number>(
     estimator: &mut AnyEstimator<T>,
-    record: &Record<'_, T>,
+    (record, time): (&Record<'_, T>, Option<&mut RecordTime<'_>>),
     k: usize,
     outputs: &mut Outputs<T>,
 ) -> Result<(), forgetting::Error> {
     let Sizes { parameters: n, rows: p, targets: m, .. } = record.sizes;
     let phi = &record.phi[k * p * n..(k + 1) * p * n];
     let y = &record.y[k * p * m..(k + 1) * p * m];
-    let is_missing = |values: &[T]| values.iter().any(|x| x.to_f64().is_nan());
-    if record.missing == Missing::Skip && (is_missing(phi) || is_missing(y)) {
+    if record.missing == Missing::Skip && is_missing(phi, y) {
         outputs.note_missing(p * m);
         outputs.note_prior(estimator, true);
     } else {
-        outputs.note(&estimator.update_with_noise(phi, y, record.noise.at(k, p))?);
+        let elapsed = time.map_or(Ok(T::ONE), |time| time.elapsed(k))?;
+        let noise = record.noise.at(k, p);
+        outputs.note(&estimator.update_after(elapsed, phi, y, noise)?);
         outputs.note_prior(estimator, false);
     }
     outputs.note_state(estimator);

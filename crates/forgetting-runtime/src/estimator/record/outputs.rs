@@ -168,17 +168,16 @@ impl<T: Number> Outputs<T> {
         }
     }
 
-    /// The outputs as arrays.
-    pub fn finish(self, sizes: Sizes) -> Run {
-        let Sizes { samples, parameters: n, rows: p, targets: m } = sizes;
+    /// The outputs as arrays, errors in the shape of y.
+    pub fn finish(self, sizes: Sizes, per_row: &[usize]) -> Run {
+        let Sizes { samples, parameters: n, targets: m, .. } = sizes;
         // one target has no dimension of its own
-        let by_target = |shape: [usize; 3]| shape[..3 - usize::from(m == 1)].to_vec();
+        let theta = [samples, n, m][..3 - usize::from(m == 1)].to_vec();
         let numbers = |numbers: Option<Vec<T>>| numbers.map(T::elements);
-        let each = vec![samples];
-        let (per_row, square) = (by_target([samples, p, m]), vec![samples, n, n]);
+        let (each, square) = (vec![samples], vec![samples, n, n]);
         let outputs = [
-            ("theta", numbers(self.theta), by_target([samples, n, m])),
-            ("error", numbers(self.error), per_row.clone()),
+            ("theta", numbers(self.theta), theta),
+            ("error", numbers(self.error), per_row.to_vec()),
             ("leverage", numbers(self.leverage), each.clone()),
             ("forgetting_factor", numbers(self.forgetting_factor), each.clone()),
             ("weight", numbers(self.weight), each.clone()),
@@ -186,7 +185,7 @@ impl<T: Number> Outputs<T> {
             ("skipped", self.skipped.map(Elements::U8), each.clone()),
             ("gate", self.gate.map(Elements::U8), each.clone()),
             ("windup", self.windup.map(Elements::Bool), each),
-            ("whitened_innovation", numbers(self.whitened_innovation), per_row),
+            ("whitened_innovation", numbers(self.whitened_innovation), per_row.to_vec()),
             ("variance", numbers(self.variance), vec![samples, n]),
             ("covariance", numbers(self.covariance), square.clone()),
             ("prior_covariance", numbers(self.prior_covariance), square),

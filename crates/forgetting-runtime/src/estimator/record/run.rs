@@ -9,14 +9,14 @@ use forgetting::{Answer, Skip, Update};
 /// | output | shape | |
 /// |---|---|---|
 /// | `theta` | (T, n) or (T, n, m) | θ after each sample |
-/// | `error` | (T, p) or (T, p, m) | y − φθ with the θ of before; NaN where a value is missing |
+/// | `error` | as y | y − φθ with the θ of before; NaN where a value is missing |
 /// | `leverage` | (T,) | variance of the prediction in units of the noise variance |
 /// | `forgetting_factor` | (T,) | λ used; 1 where the sample was missing |
 /// | `rank` | (T,) counts | number of directions that lost information |
 /// | `skipped` | (T,) codes | 0 where the sample was used, else [`Skip::code`] |
 /// | `gate` | (T,) codes | [`Answer::code`] |
 /// | `windup` | (T,) yes or no | whether P has wound up |
-/// | `whitened_innovation` | (T, p) or (T, p, m) | L⁻¹(y − φθ), see [`Update::whiten`] |
+/// | `whitened_innovation` | as y | L⁻¹(y − φθ), see [`Update::whiten`] |
 /// | `variance` | (T, n) | diagonal of P after each sample |
 /// | `covariance` | (T, n, n) | P after each sample |
 /// | `weight` | (T,) | Γ was divided by this, by the weighting and by the rule |

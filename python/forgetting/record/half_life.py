@@ -1,0 +1,70 @@
+"""Forgetting by the clock of a record: a half-life in the place of a forgetting factor."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+import forgetting as fg
+from forgetting.record.samples import Samples
+from forgetting.words.duration import seconds_of
+from forgetting.words.errors import RecordError
+
+Array = NDArray[np.float64]
+
+
+def with_half_life(rule: Any, half_life: Any, samples: Samples) -> tuple[Any, Array | None]:
+    """The rule with this half-life, and the times of the samples where these count.
+
+    Parameters
+    ----------
+    rule : str or Rule
+        A rule that has a forgetting factor, which the half-life replaces.
+    half_life : float, str or duration
+        A number counts samples; "10min" or a duration counts by the clock of the record.
+    samples : Samples
+        The samples that the rule is to be run over.
+
+    Returns
+    -------
+    rule : Rule
+    time : ndarray, shape (T,), or None
+        Seconds; None where samples count.
+
+    Raises
+    ------
+    RecordError
+        When the rule has no forgetting factor, or the record no clock.
+    """
+    try:
+        seconds = seconds_of(half_life)
+    except ValueError as error:
+        raise RecordError(f"half_life is {half_life!r}: {error}") from None
+    rule = fg.rule(rule) if isinstance(rule, str) and rule != "auto" else rule
+    if isinstance(rule, str) or not rule.about["forgetting_factor"]:
+        name = rule if isinstance(rule, str) else rule.name
+        raise RecordError(f"a half-life goes with a rule that has a forgetting factor, not {name}")
+    own = {name: value for name, value in rule.parameters.items() if name != "factors"}
+    return type(rule)(half_life=seconds, **own), None if counts(half_life) else seconds_in(samples)
+
+
+def counts(half_life: Any) -> bool:
+    """Whether it is a bare number, of samples."""
+    try:
+        float(half_life)
+    except (TypeError, ValueError):
+        return False
+    return True
+
+
+def seconds_in(samples: Samples) -> Array:
+    """When each sample was taken; a step back, or from or to a missing time, takes no time."""
+    if samples.clock is None:
+        raise RecordError(
+            f"a half-life in time needs a clock, and {samples.source} has none; a number counts "
+            "samples"
+        )
+    steps = np.nan_to_num(samples.clock.steps, nan=0.0)
+    return np.concatenate([[0.0], np.cumsum(np.maximum(steps, 0.0))])
