@@ -31,6 +31,7 @@ from .health import Health
 from .meter import ExcitationMeter
 from .models import ARX
 from .registry import *  # noqa: F403 (the axes and their registries)
+from .tuning import Tuning, tune, tune_arx
 
 __all__ = [
     "ARX",
@@ -48,7 +49,10 @@ __all__ = [
     "InvalidInput",
     "NumericalRange",
     "Run",
+    "Tuning",
     "Update",
     "__version__",
+    "tune",
+    "tune_arx",
 ]
 __all__ += registry.__all__

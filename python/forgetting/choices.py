@@ -50,11 +50,12 @@ class Choice:
     def _take(self, values: dict[str, Any]) -> None:
         self.parameters = values
 
-    def _arguments(self) -> dict[str, Any]:
+    def arguments(self) -> dict[str, Any]:
+        """What its constructor takes to make the same again."""
         return self.parameters
 
     def __repr__(self) -> str:
-        given = ", ".join(f"{name}={value!r}" for name, value in self._arguments().items())
+        given = ", ".join(f"{name}={value!r}" for name, value in self.arguments().items())
         return f"{type(self).__name__}({given})"
 
     def __eq__(self, other: object) -> bool:
@@ -115,7 +116,7 @@ class Rule(Choice):
         self.forgetting_factor = _as_rate(self.forgetting_factor)
         self.parameters = values
 
-    def _arguments(self) -> dict[str, Any]:
+    def arguments(self) -> dict[str, Any]:
         if not self.about["forgetting_factor"] or self.forgetting_factor is None:
             return self.parameters
         return {"forgetting_factor": self.forgetting_factor, **self.parameters}

@@ -25,6 +25,7 @@ LAYERS: tuple[tuple[tuple[str, ...], str], ...] = (
     (("choices", "health", "meter"), "rules as classes; how one estimator fares"),
     (("registry", "fleet"), "all the classes by name; how many estimators fare"),
     (("models",), "they make regressors and keep an estimator behind them"),
+    (("tuning",), "runs many of them and says which predicts best"),
     (("",), "what `import forgetting` shows: all of the above, and nothing above it"),
     (("analysis",), "the theory applied to arrays; it has never heard of files"),
     (("record",), "files become identifications, which quote the analysis"),

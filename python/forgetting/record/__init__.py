@@ -9,6 +9,7 @@ other libraries. All come with ``pip install 'forgetting[cli]'``.
 from forgetting.record.identification import Identification
 from forgetting.record.identify import identify
 from forgetting.record.read import Record, read
+from forgetting.record.tune import tune
 from forgetting.words.errors import RecordError
 
-__all__ = ["Identification", "Record", "RecordError", "identify", "read"]
+__all__ = ["Identification", "Record", "RecordError", "identify", "read", "tune"]

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from forgetting.record.samples import Samples
+from forgetting.tuning.baseline import last_measured, rms
 
 Array = NDArray[np.float64]
 
@@ -67,20 +68,3 @@ def started(samples: Samples) -> NDArray[np.bool_]:
     """Complete samples after the first n complete ones, (T,)."""
     complete = samples.complete
     return np.asarray(complete & (np.cumsum(complete) > samples.phi.shape[1]))
-
-
-def last_measured(y: Array) -> Array:
-    """For each row the latest value measured before it, (T, m); NaN when there is none."""
-    rows = np.arange(len(y))[:, None]
-    latest = np.maximum.accumulate(np.where(np.isnan(y), -1, rows), axis=0)
-    before = np.vstack([np.full((1, y.shape[1]), -1), latest[:-1]])
-    known = np.take_along_axis(y, np.maximum(before, 0), axis=0)
-    return np.where(before >= 0, known, np.nan)
-
-
-def rms(error: Array) -> tuple[float, ...]:
-    """Root mean square of each column; NaN without samples."""
-    if len(error) == 0:
-        return (float("nan"),) * int(error.shape[1])
-    squares = np.mean(error**2, axis=0)
-    return tuple(float(value) for value in np.sqrt(squares))

@@ -1,0 +1,146 @@
+"""Choose the settings and the orders of a model of a measured record."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from forgetting.models.orders import Orders
+from forgetting.record.identify import build, listed
+from forgetting.record.missing import Words
+from forgetting.record.origin import origin
+from forgetting.record.read import Record, read
+from forgetting.record.samples import Samples
+from forgetting.record.usage import Usage
+from forgetting.tuning.choose import SHARE, choose
+from forgetting.tuning.orders import USUAL_NA, order_grid, widest
+from forgetting.tuning.problem import Problem
+from forgetting.tuning.result import Tuning
+from forgetting.tuning.runner import Progress
+from forgetting.words.errors import RecordError
+
+if TYPE_CHECKING:
+    from narwhals.typing import IntoDataFrame
+
+OrderRanges = Sequence["int | Sequence[int]"]
+
+
+def tune(
+    record: str | Path | IntoDataFrame | Record,
+    *,
+    formula: str | None = None,
+    output: str | Sequence[str] = (),
+    input: str | Sequence[str] = (),
+    arx: OrderRanges | None = None,
+    offset: bool = True,
+    rules: str | Sequence[str] = "shortlist",
+    rates: bool = True,
+    priors: bool = True,
+    share: float = SHARE,
+    time: str | None = None,
+    gap: str | float | None = None,
+    missing: str | float | Words = (),
+    part: str | None = None,
+    encoding: str | None = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Tuning:
+    """Choose rule, forgetting factor, rate, prior and orders; see `forgetting.tune`.
+
+    The estimators are those of `forgetting.record.identify`, which the lines of the result call.
+
+    Parameters
+    ----------
+    record, time, gap, missing, part, encoding
+        See `forgetting.record.read`.
+    formula, output, input, offset
+        The model, see `forgetting.record.identify`.
+    arx : sequence of three, optional
+        Orders na, nb, nk, each a number or several to try; without it na and nb from 1 to 4 and nk
+        from 0 to 3 are tried, where outputs are named.
+    rules, rates, priors, share, threads, progress
+        See `forgetting.tune`.
+
+    Returns
+    -------
+    Tuning
+
+    Raises
+    ------
+    RecordError
+        When the file, a column, a cell or the model is at fault.
+    forgetting.InvalidInput
+        When an argument is out of range, or a part has too few samples.
+
+    Examples
+    --------
+    >>> import numpy as np, pandas as pd
+    >>> random = np.random.default_rng(0)
+    >>> x = random.normal(size=600)
+    >>> table = pd.DataFrame({"x": x, "y": np.cumsum(0.1 * random.normal(size=600)) * x})
+    >>> found = tune(table, formula="y ~ 0 + x", rules=["none", "exponential"], rates=False)
+    >>> found.rule.name, found.rest.error("tuned") < found.rest.error("no_forgetting")
+    ('exponential', True)
+    """
+    source = read(record, time, gap=gap, missing=missing, part=part, encoding=encoding)
+    outputs, inputs = listed(output), listed(input)
+    models = models_of(formula, outputs, inputs, arx)
+    given = [each for each in models if each is not None]
+
+    def samples(orders: Orders | None) -> Samples:
+        lags = None if orders is None else (orders.na, orders.nb, orders.nk)
+        return build(source, formula, outputs, inputs, lags, offset)
+
+    def make(orders: Orders | None) -> Problem:
+        return problem(samples(orders))
+
+    covering = samples(widest(given) if given else None)
+    usage = Usage(
+        path=str(record) if isinstance(record, str | Path) else None,
+        formula=formula,
+        outputs=outputs,
+        inputs=inputs,
+        offset=offset,
+        time=time,
+        gap=gap,
+        missing=[missing] if isinstance(missing, str | float | int) else list(missing),
+        part=part,
+        encoding=encoding,
+    )
+    return choose(
+        make,
+        models,
+        problem(covering),
+        usage.lines,
+        rules=rules,
+        rates=rates,
+        priors=priors,
+        share=share,
+        threads=threads,
+        progress=progress,
+        outputs=covering.outputs,
+    )
+
+
+def problem(samples: Samples) -> Problem:
+    """The samples as the search takes them."""
+    moved = origin(samples).moved(samples)
+    return Problem(samples.phi, samples.y, (moved.phi, moved.y))
+
+
+def models_of(
+    formula: str | None, outputs: list[str], inputs: list[str], arx: OrderRanges | None
+) -> list[Orders] | list[None]:
+    """The models to try; [None] where a formula says the model."""
+    if formula is not None:
+        if arx is not None:
+            raise RecordError("say the model by a formula, or by output, input and arx; not both")
+        return [None]
+    if not outputs:
+        raise RecordError("say the model: a formula, or output columns, with ARX orders or without")
+    if arx is None:
+        return order_grid(USUAL_NA, None, None, len(inputs))
+    if len(arx) != 3:
+        raise RecordError(f"ARX orders are na,nb,nk, each one or several; got {len(arx)}")
+    return order_grid(arx[0], arx[1], arx[2], len(inputs))

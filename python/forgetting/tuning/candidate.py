@@ -1,0 +1,87 @@
+"""One way to estimate: a rule and a prior, or the bank, for one model."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from forgetting._core import RLS, Bank
+from forgetting.choices import AXES, Rule
+from forgetting.models.orders import Orders
+from forgetting.tuning.problem import Problem
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """What is tried.
+
+    Attributes
+    ----------
+    rule : Rule or None
+        The forgetting rule; None is the bank.
+    initial_covariance : tuple of float or None
+        The diagonal of P before the first sample; None follows the data.
+    orders : Orders or None
+        Of an ARX model.
+    """
+
+    rule: Rule | None
+    initial_covariance: tuple[float, ...] | None = None
+    orders: Orders | None = None
+
+    def errors(self, problem: Problem, stop: int | None = None) -> Array:
+        """One-step errors of the rows before `stop`, (T, m), each from before its sample."""
+        followed = self.initial_covariance is None
+        phi, y = problem.moved if followed else (problem.phi, problem.y)
+        phi, y = phi[:stop], y[:stop]
+        estimator = self.estimator(phi.shape[1], y.shape[1])
+        target = y if y.shape[1] > 1 else y[:, 0]
+        found = estimator.run(phi, target, outputs=("error",), missing="skip")
+        return np.asarray(found.error, dtype=np.float64).reshape(y.shape)
+
+    def estimator(self, parameters: int, targets: int) -> Any:
+        """A new estimator."""
+        if self.rule is None:
+            return Bank(parameters, targets=targets)
+        covariance = self.initial_covariance
+        return RLS(
+            parameters,
+            rule=self.rule,
+            targets=targets,
+            initial_covariance=None if covariance is None else np.array(covariance),
+        )
+
+    def with_rule(self, **values: Any) -> Candidate:
+        """The same with other parameters of its rule."""
+        assert self.rule is not None
+        return replace(self, rule=with_values(self.rule, **values))
+
+
+NOISE = "process_noise"
+"""How much a random walk forgets is the variance of its steps, no factor."""
+
+
+def tuned(rule: str) -> str | None:
+    """The parameter of a rule that says how much it forgets: a factor, or a noise.
+
+    Examples
+    --------
+    >>> tuned("subspace"), tuned("multiple"), tuned("random_walk"), tuned("none")
+    ('forgetting_factor', 'factors', 'process_noise', None)
+    """
+    about = AXES["rule"].classes[rule].about
+    if about["forgetting_factor"]:
+        return "forgetting_factor"
+    names = [each["name"] for each in about["parameters"]]
+    return next((name for name in ("factors", NOISE) if name in names), None)
+
+
+def with_values(rule: Rule, **values: Any) -> Rule:
+    """The rule with other values of some parameters."""
+    made: Rule = type(rule)(**{**rule.arguments(), **values})
+    return made

@@ -1,0 +1,155 @@
+"""What is tried, all of it independent of the units of the columns."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from forgetting._core import InvalidInput
+from forgetting.choices import AXES, Rate, Rule
+from forgetting.tuning.candidate import NOISE, tuned
+
+Array = NDArray[np.float64]
+
+SHORTLIST = ("none", "exponential", "exponential_resetting", "subspace", "random_walk")
+"""Rules that are tried when none are named: the ways to forget that `docs/choosing.md` advises."""
+MEMORIES = 9
+"""Memories on the first grid, from the shortest to half of the samples."""
+SHORTEST = 2.0
+"""Shortest memory, in samples."""
+NOISES = tuple(10.0**power for power in range(-9, 4))
+"""Variances of the steps of a random walk, where regressors are in units of their typical size."""
+BOUND = 1e5
+"""Bound of P for a random walk, as in the default rule of `forgetting.RLS`."""
+VARIANTS = {
+    "threshold": (1e-4, 1e-2, 0.1),
+    "information": (1e-5, 1e-3, 0.1),
+    "bound": (1e2,),
+}
+"""Other parameters of a rule and what is tried of them, beside their defaults."""
+PRIORS = (1.0, 1e2, 1e8)
+"""Variances before the first sample, for regressors of mean square 1."""
+
+
+def named_rules(rules: str | list[str] | tuple[str, ...]) -> list[str]:
+    """The registry names of the rules to try; "shortlist", "all" that forget, or a list.
+
+    Raises
+    ------
+    InvalidInput
+        For a name that is not in the registry, or that of a rule that needs a function.
+    """
+    usable = {
+        entry["name"]: entry
+        for entry in AXES["rule"].entries
+        if not any(parameter["required"] for parameter in entry["parameters"])
+    }
+    if rules == "shortlist":
+        return list(SHORTLIST)
+    if rules == "all":
+        return ["none", *(name for name in usable if tuned(name))]
+    names = [rules] if isinstance(rules, str) else list(dict.fromkeys(rules))
+    for name in names:
+        if name not in usable:
+            raise InvalidInput(f"rule = {name!r}, allowed: shortlist, all, {', '.join(usable)}")
+    if not names:
+        raise InvalidInput(f"rules = {rules!r}, allowed: shortlist, all, or names of rules")
+    return names
+
+
+def plain_rule(name: str) -> Rule:
+    """The rule with its defaults; a random walk bounded."""
+    values = {"bound": BOUND} if name == "random_walk" else {}
+    made: Rule = AXES["rule"].make(name, **values)
+    return made
+
+
+def factor(memory: float) -> float:
+    """The forgetting factor that remembers so many samples, 1 − λ to three digits.
+
+    Examples
+    --------
+    >>> factor(100.0), factor(3.0), factor(12345.6)
+    (0.99, 0.667, 0.999919)
+    """
+    forgotten = float(f"{1 / memory:.3g}")
+    digits = max(0, 2 - int(np.floor(np.log10(forgotten))))
+    return round(1 - forgotten, digits)
+
+
+def settings(rule: str, samples: int) -> list[float]:
+    """The first grid of the parameter that says how much a rule forgets."""
+    if tuned(rule) == NOISE:
+        return list(NOISES)
+    longest = max(samples / 2, 2 * SHORTEST)
+    return [factor(memory) for memory in np.geomspace(SHORTEST, longest, MEMORIES)]
+
+
+def between(one: float, other: float, rule: str) -> float:
+    """The setting in the middle of two: a geometric mean of memories or variances."""
+    if tuned(rule) == NOISE:
+        return float(f"{np.sqrt(one * other):.3g}")
+    return factor(float(1 / np.sqrt((1 - one) * (1 - other))))
+
+
+def variants(rule: Rule) -> Iterator[dict[str, Any]]:
+    """Values of one other parameter at a time."""
+    for name, values in VARIANTS.items():
+        if name in rule.parameters:
+            yield from ({name: value} for value in values if value != rule.parameters[name])
+
+
+@dataclass(frozen=True)
+class Scaled:
+    """A parameter of a rate and its values, in units of a power of the error's root mean square."""
+
+    name: str
+    power: int
+    values: tuple[float, ...]
+
+
+RATES: dict[str, tuple[Scaled, ...]] = {
+    "prediction_error": (Scaled("sensitivity", 2, (1.0, 10.0)),),
+    "fortescue": (Scaled("memory", 0, (30.0, 100.0, 300.0)), Scaled("noise_variance", 2, (1.0,))),
+    "noise_power": (Scaled("ratio", 0, (1.5, 3.0)), Scaled("floor", 1, (1e-8,))),
+    "gradient": (Scaled("step_size", -2, (1e-3, 1e-2)),),
+    "exact_gradient": (Scaled("step_size", -2, (1e-3, 1e-2)),),
+    "rms_ratio": (Scaled("sensitivity", 0, (0.1, 1.0)),),
+    "f_test": (Scaled("sensitivity", 0, (0.1, 1.0)),),
+    "unity_zone": (Scaled("sensitivity", -2, (0.05, 0.5)),),
+}
+"""Rates that are tried, with what parameters; what is in units of the errors follows them."""
+WITHOUT_UNITS = ("f_test",)
+"""Rates that also weigh several outputs without regard to their units."""
+NOT_TRIED = ("constant", "schedule", "function")
+"""The factor itself, and what the user must know."""
+
+
+def rates(noise: float, outputs: int) -> list[Rate]:
+    """The rates to try, for one-step errors of this root mean square."""
+    make: Callable[..., Rate] = AXES["rate"].make
+    found = []
+    for name, (main, *others) in RATES.items():
+        if not noise > 0 or (outputs > 1 and name not in WITHOUT_UNITS):
+            continue
+        fixed = {each.name: rounded(each.values[0] * noise**each.power) for each in others}
+        for value in main.values:
+            found.append(make(name, **{main.name: rounded(value * noise**main.power)}, **fixed))
+    return found
+
+
+def priors(phi: Array) -> list[tuple[float, ...]]:
+    """Diagonals of P before the first sample, for regressors of this size, (T, n)."""
+    square = np.nanmean(np.square(phi), axis=0)
+    if not (square > 0).all():
+        return []
+    return [tuple(rounded(prior / each) for each in square) for prior in PRIORS]
+
+
+def rounded(value: float) -> float:
+    """Six digits: enough for the same predictions in all units, short enough to print."""
+    return float(f"{value:.6g}")

@@ -1,0 +1,90 @@
+"""Regressors and outputs of one model, and which samples choose and which report."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from forgetting._core import InvalidInput
+from forgetting.tuning.baseline import last_measured
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+FEWEST_CHOOSING, FEWEST_REPORTING = 50, 30
+"""Scored samples below which a choice, or a report on it, would be of noise."""
+
+
+@dataclass(frozen=True)
+class Problem:
+    """The samples of one model, NaN where a value is missing.
+
+    Attributes
+    ----------
+    phi : ndarray, shape (T, n)
+        Regressors as they are.
+    y : ndarray, shape (T, m)
+        Outputs as they are.
+    moved : tuple of two ndarrays
+        Both as an estimator gets them whose prior follows the data: measured from the first sample
+        where the model has a constant, see `forgetting.record.identify`.
+    """
+
+    phi: Array
+    y: Array
+    moved: tuple[Array, Array]
+
+    @property
+    def complete(self) -> Mask:
+        """Rows without a missing value, (T,)."""
+        return ~np.isnan(np.hstack([self.phi, self.y])).any(axis=1)  # type: ignore[return-value]
+
+
+@dataclass(frozen=True)
+class Split:
+    """The two parts of a record, the same for all models.
+
+    Attributes
+    ----------
+    row : int
+        The first row of the rest: all before it is the first part.
+    choosing, reporting : ndarray of bool, shape (T,)
+        Samples of the first part, and of the rest, that are scored.
+    """
+
+    row: int
+    choosing: Mask
+    reporting: Mask
+
+
+def split(problem: Problem, share: float) -> Split:
+    """Cut a record in two, with `share` of its complete samples in the first part.
+
+    Scored are samples that the model with the most lags can predict, all models the same. The start
+    of the first part is not: a tenth of it, and at least twice as many samples as regressors, as
+    before that every estimator shows its prior.
+
+    Raises
+    ------
+    InvalidInput
+        When `share` is not between 0 and 1, or a part has too few samples.
+    """
+    if not 0 < share < 1:
+        raise InvalidInput(f"share = {share:g}, allowed: between 0 and 1, both excluded")
+    complete = problem.complete
+    known = complete & ~np.isnan(last_measured(problem.y)).any(axis=1)
+    count = np.cumsum(complete)
+    first = int(share * count[-1]) if len(count) else 0
+    row = int(np.searchsorted(count, first, side="right")) if first else 0
+    before = np.arange(len(complete)) < row
+    start = max(2 * problem.phi.shape[1], first // 10)
+    choosing, reporting = known & before & (count > start), known & ~before
+    scored = int(choosing.sum()), int(reporting.sum())
+    if scored[0] < FEWEST_CHOOSING or scored[1] < FEWEST_REPORTING:
+        raise InvalidInput(
+            f"with share = {share:g} there are {scored[0]} samples to choose by and {scored[1]} to "
+            f"report on; at least {FEWEST_CHOOSING} and {FEWEST_REPORTING} are needed"
+        )
+    return Split(row, choosing, reporting)

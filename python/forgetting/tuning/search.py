@@ -1,0 +1,180 @@
+"""The order in which settings are chosen: cheap runs first, and only the best go on.
+
+Orders of an ARX model are chosen with the bank, which needs no other setting. Every rule is then
+run over a coarse grid of its factor; the grid is made finer around the best of those rules that go
+on. Other parameters, rates and priors are tried last, and each must be worth its place: a default
+stays unless something else is better by `MARGIN`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from forgetting._core import InvalidInput
+from forgetting.models.orders import Orders
+from forgetting.tuning import grid
+from forgetting.tuning.candidate import NOISE, Candidate, tuned
+from forgetting.tuning.problem import Problem
+from forgetting.tuning.runner import Runner, Trial, best
+
+MARGIN = 0.005
+"""By how much of its error something must be better to take the place of a default."""
+GO_ON = 3
+"""Rules of which the factor is found more closely."""
+WITH_RATES = 2
+"""Rules that are tried with each rate."""
+ROUNDS = 2
+"""How often the grid is made finer."""
+
+
+def best_orders(runner: Runner, orders: Sequence[Orders]) -> Orders:
+    """The orders with which the bank predicts best."""
+    ranked = runner.score([Candidate(None, None, each) for each in orders], "orders")
+    if ranked[0].error == float("inf"):
+        raise InvalidInput("no ARX model could be run on the first part of the record")
+    simplest = sorted(ranked, key=lambda trial: size(trial.candidate.orders))
+    near = ranked[0].error * (1 + MARGIN)
+    found = next(trial.candidate.orders for trial in simplest if trial.error <= near)
+    assert found is not None
+    return found
+
+
+def size(orders: Orders | None) -> tuple[int, int]:
+    """Sorts models: fewer parameters first, then the shorter delay."""
+    assert orders is not None
+    return orders.na + orders.nb, orders.nk
+
+
+def best_of_each(
+    runner: Runner, rules: Sequence[str], orders: Orders | None, go_on: int | None = None
+) -> list[Trial]:
+    """Each rule with its best factor, the best rule first.
+
+    Parameters
+    ----------
+    go_on : int, optional
+        Of how many rules the factor is found more closely; all if not given.
+    """
+    tried = {rule: coarse(runner, rule, orders) for rule in rules}
+    runner.score([each for candidates in tried.values() for each in candidates], "factors")
+    ranked = [runner.score(candidates, "factors") for candidates in tried.values()]
+    ranked.sort(key=lambda trials: trials[0].error)
+    going = ranked[:go_on]
+    for _ in range(ROUNDS):
+        finer = [[*map(candidate_of, trials), *closer(trials)] for trials in going]
+        runner.score([each for candidates in finer for each in candidates], "factors")
+        going = [runner.score(candidates, "factors") for candidates in finer]
+    found = [best(trials) for trials in [*going, *ranked[len(going) :]]]
+    return sorted(found, key=lambda trial: trial.error)
+
+
+def candidate_of(trial: Trial) -> Candidate:
+    """What was tried."""
+    return trial.candidate
+
+
+def coarse(runner: Runner, rule: str, orders: Orders | None) -> list[Candidate]:
+    """The rule with every setting of the first grid."""
+    plain = Candidate(grid.plain_rule(rule), None, orders)
+    name = tuned(rule)
+    if name is None:
+        return [plain]
+    samples = int(runner.split.choosing.sum())
+    return [plain.with_rule(**{name: value}) for value in grid.settings(rule, samples)]
+
+
+def closer(trials: Sequence[Trial]) -> list[Candidate]:
+    """The settings in the middle between the best of a rule and its neighbours."""
+    centre = trials[0].candidate
+    assert centre.rule is not None
+    rule, name = centre.rule.name, tuned(centre.rule.name)
+    if name is None:
+        return []
+    # beside the shortest memory on the grid stands that of one sample, which is a factor of 0
+    beyond = [] if name == NOISE else [0.0]
+    values = beyond + sorted(setting(trial.candidate) for trial in trials)
+    at = values.index(setting(centre))
+    near = [values[place] for place in (at - 1, at + 1) if 0 <= place < len(values)]
+    middles = [grid.between(setting(centre), value, rule) for value in near]
+    return [centre.with_rule(**{name: value}) for value in middles]
+
+
+def setting(candidate: Candidate) -> float:
+    """The factor or the noise of a candidate."""
+    assert candidate.rule is not None
+    name = tuned(candidate.rule.name)
+    assert name is not None
+    value = candidate.rule.arguments()[name]
+    return float(value[0] if isinstance(value, list) else value)
+
+
+def search(
+    runner: Runner,
+    rules: Sequence[str],
+    orders: Orders | None,
+    problem: Problem,
+    rates: bool,
+    priors: bool,
+) -> Trial:
+    """The best setting of all."""
+    ranked = best_of_each(runner, rules, orders, GO_ON)
+    ranked = [with_variants(runner, trial) for trial in ranked[:GO_ON]]
+    ranked.sort(key=lambda trial: trial.error)
+    if ranked[0].error == float("inf"):
+        raise InvalidInput(f"none of the rules {', '.join(rules)} could be run on the first part")
+    found = with_rates(runner, ranked, problem.y.shape[1]) if rates else ranked[0]
+    return with_priors(runner, found, problem) if priors else found
+
+
+def worth(runner: Runner, plain: Trial, others: Sequence[Candidate], stage: str) -> Trial:
+    """The best of some candidates where it is better than the plain one by the margin."""
+    if not others:
+        return plain
+    found = best(runner.score(others, stage))
+    return found if found.error < plain.error * (1 - MARGIN) else plain
+
+
+def with_variants(runner: Runner, trial: Trial) -> Trial:
+    """With another value of one of its other parameters, where that is worth it."""
+    assert trial.candidate.rule is not None
+    others = [trial.candidate.with_rule(**values) for values in grid.variants(trial.candidate.rule)]
+    return worth(runner, trial, others, "parameters")
+
+
+def with_rates(runner: Runner, ranked: Sequence[Trial], outputs: int) -> Trial:
+    """The best of all: a rate with one of the best rules, where that is worth it."""
+    taking = [trial.candidate for trial in ranked if takes_a_rate(trial.candidate)]
+    others = [
+        candidate.with_rule(forgetting_factor=rate)
+        for candidate in taking[:WITH_RATES]
+        for rate in grid.rates(ranked[0].error, outputs)
+    ]
+    return worth(runner, ranked[0], others, "rates")
+
+
+def takes_a_rate(candidate: Candidate) -> bool:
+    """Whether the rule has a forgetting factor."""
+    return candidate.rule is not None and tuned(candidate.rule.name) == "forgetting_factor"
+
+
+def with_priors(runner: Runner, trial: Trial, problem: Problem) -> Trial:
+    """With P before the first sample given, where that is worth it.
+
+    Tried only with rules whose other parameters are no numbers in units of the regressors: with P
+    given in these units, a threshold would be, too.
+    """
+    assert trial.candidate.rule is not None
+    if trial.candidate.rule.parameters and any(trial.candidate.rule.parameters.values()):
+        return trial
+    first = problem.phi[: runner.split.row]
+    others = [replace(trial.candidate, initial_covariance=prior) for prior in grid.priors(first)]
+    return worth(runner, trial, others, "priors")
+
+
+def expected(orders: int, rules: Sequence[str], rates: bool, priors: bool) -> int:
+    """About how many runs a search takes; for a progress bar."""
+    grids = sum(grid.MEMORIES if tuned(rule) else 1 for rule in rules)
+    more = GO_ON * (2 * ROUNDS + 3) + len(grid.PRIORS) * priors
+    per_rule = sum(len(scaled[0].values) for scaled in grid.RATES.values())
+    return (orders if orders > 1 else 0) + grids + more + rates * WITH_RATES * per_rule
