@@ -14,6 +14,7 @@ from forgetting.cli.identify import identify
 from forgetting.cli.reproduce import reproduce
 from forgetting.cli.rules import rules
 from forgetting.cli.tables import leave_quietly, say
+from forgetting.cli.tune import tune
 from forgetting.words.errors import RecordError
 
 BAD = 2
@@ -28,6 +29,7 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 app.command()(identify)
+app.command()(tune)
 app.command()(compare)
 app.command()(certify)
 app.command()(rules)

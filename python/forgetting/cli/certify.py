@@ -37,6 +37,7 @@ def certify(
     show: options.Show = False,
     rule: options.RuleName = "subspace",
     forgetting_factor: options.ForgettingFactor = None,
+    rate: options.RateText = None,
     threshold: options.Threshold = None,
     settings: options.Settings = None,
     gate: options.GateText = None,
@@ -55,7 +56,7 @@ def certify(
     if show:
         show_record(source)
         return 0
-    made = make_rule(rule or "subspace", forgetting_factor, threshold, settings or [])
+    made = make_rule(rule or "subspace", forgetting_factor, threshold, settings or [], rate)
     orders = None if arx is None else parse_orders(arx)
     samples = build(source, formula, listed(output or ()), listed(input or ()), orders)
     start = parse_covariance(initial_covariance)

@@ -2,31 +2,31 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import numpy as np
 import typer
 
 import forgetting as fg
 from forgetting.cli import options
 from forgetting.cli.identify import check_targets, parse_covariance, parse_orders
 from forgetting.cli.progress import progress_bar
-from forgetting.cli.rulebook import about, make_rule
+from forgetting.cli.rulebook import about
 from forgetting.cli.source import read_record, show_record
-from forgetting.cli.tables import console, print_written, table
+from forgetting.cli.tables import console, print_written, say, table
 from forgetting.words.errors import RecordError
 from forgetting.words.rounding import brief
 
 if TYPE_CHECKING:
-    from forgetting.record import Identification
+    from forgetting.record.compare import Compared, Comparison
 
 MEANING = (
-    "Each prediction is made before its sample is learned. Left out: samples that were missing, "
-    "in a dead zone or within the bound on the noise. Largest eigenvalue and condition number of P "
-    "are those at the end."
+    "Factor: the forgetting factor, of a random walk its process noise. Each prediction is made "
+    "before its sample is learned. Left out: samples that were missing, in a dead zone or within "
+    "the bound on the noise. Largest eigenvalue and condition number of P are those at the end."
 )
-HEADER = ("rule", "one-step RMSE", "left out", "max eig P", "cond P")
+HEADER = ("rule", "factor", "RMSE", "left out", "max eig P", "cond P")
 
 
 def compare(
@@ -45,40 +45,45 @@ def compare(
         str, typer.Option("--rules", help="all, or registry names with commas.")
     ] = "all",
     forgetting_factor: options.ForgettingFactor = None,
+    share: options.Share = 2 / 3,
     initial_covariance: options.InitialCovariance = "auto",
     report: options.Report = None,
+    plot: options.Plot = None,
+    as_json: options.Json = False,
 ) -> None:
     """Run forgetting rules side by side on a record, ranked by their one-step error.
 
-    Every rule has its default parameters and, if it uses one, the same forgetting factor.
+    Every rule has its default parameters and its own best forgetting factor (a random walk its
+    best process noise), chosen on the first part of the record; ranked by the rest. With
+    --forgetting-factor all have that one, and all samples count.
     """
-    from forgetting.record.identify import identify
+    from forgetting.record.compare import compare as compare_rules
 
-    check_targets(record, report, None, None)
+    check_targets(record, report, None, plot)
+    if plot is not None and forgetting_factor is not None:
+        raise RecordError("--plot draws the error over the factor, which --forgetting-factor fixes")
     source = read_record(record, time, gap, missing, part, encoding)
     if show:
         return show_record(source)
-    model: dict[str, Any] = {
-        "formula": formula,
-        "output": output or (),
-        "input": input or (),
-        "arx": None if arx is None else parse_orders(arx),
-        "initial_covariance": parse_covariance(initial_covariance),
-    }
-    found: list[tuple[str, Identification]] = []
-    refused: list[str] = []
-    for name in chosen(rules):
-        try:
-            rule = make_rule(name, factor_for(name, forgetting_factor), None, [])
-            with progress_bar(f"{name} on {record.name}") as progress:
-                found.append((name, identify(source, rule=rule, progress=progress, **model)))
-        except fg.NumericalRange as error:
-            refused.append(f"{name}: {error}")
-    found.sort(key=lambda each: error_of(each[1]))
-    print_ranking([row(name, each) for name, each in found], refused)
-    if report is not None:
-        save(found, refused, report)
-        print_written([report])
+    with progress_bar(f"comparing on {record.name}") as progress:
+        found = compare_rules(
+            source,
+            chosen(rules),
+            formula=formula,
+            output=output or (),
+            input=input or (),
+            arx=None if arx is None else parse_orders(arx),
+            initial_covariance=parse_covariance(initial_covariance),
+            forgetting_factor=forgetting_factor,
+            share=share,
+            progress=progress,
+        )
+    written = write(found, report, plot)
+    if as_json:
+        result = found.summary() | {"written": [str(path) for path in written]}
+        return say(json.dumps(result, indent=2, ensure_ascii=False))
+    print_ranking(found)
+    print_written(written)
 
 
 def chosen(rules: str) -> list[str]:
@@ -92,52 +97,60 @@ def chosen(rules: str) -> list[str]:
     return [str(about(name)["name"]) for name in names]
 
 
-def factor_for(name: str, forgetting_factor: float | None) -> float | None:
-    """The factor asked for, if the rule uses one."""
-    return forgetting_factor if about(name)["forgetting_factor"] else None
-
-
-def error_of(found: Identification) -> float:
-    """Root mean square one-step error over all outputs."""
-    return float(np.sqrt(np.mean(np.square(np.atleast_1d(found.scores.model)))))
-
-
-def row(name: str, found: Identification) -> tuple[str, ...]:
+def row(each: Compared) -> tuple[str, ...]:
     """One line of the table."""
-    largest = float(found.trace.eigenvalues[-1][-1])
-    left_out = len(found.samples.y) - found.used
-    ratio = f"{found.covariance_ratio:.3g}"
-    return (name, brief(error_of(found)), str(left_out), f"{largest:.3g}", ratio)
+    largest = float(each.found.trace.eigenvalues[-1][-1])
+    left_out = len(each.found.samples.y) - each.found.used
+    ratio = f"{each.found.covariance_ratio:.3g}"
+    error = brief(each.error)
+    return (each.name, shown(each.setting), error, str(left_out), f"{largest:.3g}", ratio)
 
 
-def print_ranking(rows: list[tuple[str, ...]], refused: list[str]) -> None:
+def shown(setting: tuple[str, Any] | None) -> str:
+    """The value of a setting; a dash for a rule that has none."""
+    return "-" if setting is None else f"{setting[1]:g}" if isinstance(setting[1], float) else "…"
+
+
+def print_ranking(found: Comparison) -> None:
     """Print the ranking, and which rules did not get through the record."""
     out = console()
-    out.print(table("Rules by one-step error", HEADER, rows))
-    for sentence in refused:
+    title = f"Rules by one-step error of {found.scored_in_words()}"
+    out.print(table(title, HEADER, [row(each) for each in found.ranked]))
+    for sentence in found.refused:
         out.print(f"refused: {sentence}", markup=False)
 
 
-def save(found: list[tuple[str, Identification]], refused: list[str], path: Path) -> None:
+def write(found: Comparison, report: Path | None, plot: Path | None) -> list[Path]:
+    """Write what was asked for; pages and pictures are loaded only then."""
+    if report is not None:
+        save(found, report)
+    if plot is not None:
+        from forgetting.plot.tuning import save_factors
+
+        save_factors(found.trials, None, "Chosen on the first part of the record", plot)
+    return [path for path in (report, plot) if path is not None]
+
+
+def save(found: Comparison, path: Path) -> None:
     """Write the ranking as one page."""
     from forgetting.report.page import Block, Figure, Page, Table, write
 
-    best = found[0][1] if found else None
+    samples = found.ranked[0].found.samples if found.ranked else None
     write(
         Page(
             title="Forgetting rules side by side",
-            subtitle="" if best is None else f"{best.samples.source} · {best.samples.model}",
-            facts=() if best is None else best.samples.facts(),
-            verdicts=[f"Refused: {sentence}" for sentence in refused],
+            subtitle="" if samples is None else f"{samples.source} · {samples.model}",
+            facts=() if samples is None else samples.facts(),
+            verdicts=[f"Refused: {sentence}" for sentence in found.refused],
             figures=[
-                Figure(f"{place}. {name}", brief(error_of(each)), each.rule_in_words)
-                for place, (name, each) in enumerate(found[:3], start=1)
+                Figure(f"{place}. {each.name}", brief(each.error), each.found.rule_in_words)
+                for place, each in enumerate(found.ranked[:3], start=1)
             ],
             blocks=[
                 Block(
                     title="Ranked by one-step error",
-                    text=MEANING,
-                    table=Table(HEADER, [row(name, each) for name, each in found]),
+                    text=f"Errors of {found.scored_in_words()}. {MEANING}",
+                    table=Table(HEADER, [row(each) for each in found.ranked]),
                 )
             ],
         ),

@@ -36,6 +36,7 @@ def identify(
     rule: options.RuleName = None,
     forgetting_factor: options.ForgettingFactor = None,
     half_life: options.HalfLife = None,
+    rate: options.RateText = None,
     threshold: options.Threshold = None,
     settings: options.Settings = None,
     gate: options.GateText = None,
@@ -60,9 +61,9 @@ def identify(
     source = read_record(record, time, gap, missing, part, encoding)
     if show:
         return show_record(source)
-    if half_life is not None and forgetting_factor is not None:
-        raise RecordError("--half-life and --forgetting-factor are given; allowed is one")
-    chosen = rule_or_auto(rule, forgetting_factor, threshold, settings or [])
+    if half_life is not None and (forgetting_factor is not None or rate is not None):
+        raise RecordError("--half-life goes without --forgetting-factor and --rate")
+    chosen = rule_or_auto(rule, forgetting_factor, threshold, settings or [], rate)
     before = make_gate(gate)
     with progress_bar(f"identifying {record.name}") as progress:
         found = identify_record(

@@ -128,6 +128,16 @@ HalfLife = Annotated[
         metavar="DURATION",
     ),
 ]
+RateText = Annotated[
+    str | None,
+    option(
+        RULE,
+        "A variable forgetting factor in place of a number, such as f_test or "
+        "noise_power:ratio=2,smallest=0.8.",
+        "--rate",
+        metavar="NAME[:NAME=VALUE,...]",
+    ),
+]
 Threshold = Annotated[
     float | None,
     option(RULE, "Smallest regressor that counts as information (rule subspace).", "--threshold"),
@@ -159,6 +169,15 @@ InitialCovariance = Annotated[
         "the data, and units do not matter.",
         "--initial-covariance",
         metavar="P0",
+    ),
+]
+Share = Annotated[
+    float,
+    option(
+        RULE,
+        "Of the complete samples, those that choose; the rest is what is reported on.",
+        "--share",
+        metavar="SHARE",
     ),
 ]
 Dtype = Annotated[str, option(RULE, "float64 or float32.", "--dtype")]

@@ -1,8 +1,8 @@
-"""From option texts to a forgetting rule and a gate."""
+"""From option texts to a forgetting rule, a rate and a gate."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import forgetting as fg
@@ -15,11 +15,15 @@ def make_rule(
     forgetting_factor: float | None,
     threshold: float | None,
     settings: list[str],
+    rate: str | None = None,
 ) -> Any:
     """Make the rule `name` from its options; unknown parameters are refused by name."""
     allowed = parameter_names(name)
     parameters: dict[str, Any] = {}
-    for key, value in (("forgetting_factor", forgetting_factor), ("threshold", threshold)):
+    if rate is not None and forgetting_factor is not None:
+        raise RecordError("say --forgetting-factor or --rate, not both")
+    factor = forgetting_factor if rate is None else make_rate(rate)
+    for key, value in (("forgetting_factor", factor), ("threshold", threshold)):
         if value is not None:
             parameters[key] = value
     for setting in settings:
@@ -39,33 +43,50 @@ def rule_or_auto(
     forgetting_factor: float | None,
     threshold: float | None,
     settings: list[str],
+    rate: str | None = None,
 ) -> Any:
     """The rule; "auto" where nothing is said of it, `subspace` where only its parameters are."""
-    if name is None and forgetting_factor is None and threshold is None and not settings:
+    said = forgetting_factor is not None or threshold is not None or settings or rate is not None
+    if name is None and not said:
         return "auto"
     if name == "auto":
-        if forgetting_factor is not None or threshold is not None or settings:
+        if said:
             raise RecordError("the rule 'auto' has no parameters")
         return name
-    return make_rule(name or "subspace", forgetting_factor, threshold, settings)
+    return make_rule(name or "subspace", forgetting_factor, threshold, settings, rate)
 
 
 def make_gate(text: str | None) -> Any:
     """Make the gate of ``name:parameter=value,...``; None without a gate."""
     if text is None:
         return None
+    name, values = with_parameters(text, "gate", fg.gates())
+    return fg.gate(name, **values)
+
+
+def make_rate(text: str) -> Any:
+    """Make the rate of ``name:parameter=value,...``."""
+    name, values = with_parameters(text, "rate", fg.rates())
+    return fg.rate(name, **values)
+
+
+def with_parameters(
+    text: str, kind: str, registry: Sequence[Mapping[str, Any]]
+) -> tuple[str, dict[str, Any]]:
+    """Read ``name:parameter=value,...`` of an entry that needs no function of the user's."""
     name, _, settings = text.partition(":")
-    known = {entry["name"]: entry["parameters"] for entry in fg.gates()}
+    known = {entry["name"]: entry["parameters"] for entry in registry}
     usable = [key for key, own in known.items() if all(p["kind"] != "function" for p in own)]
     if name not in usable:
-        raise RecordError(f"there is no gate {name!r}{suggestion(usable, name, 'the gates are')}")
-    pairs = [parse(setting, "--gate") for setting in settings.split(",") if settings]
+        near = suggestion(usable, name, f"the {kind}s are")
+        raise RecordError(f"there is no {kind} {name!r}{near}")
+    pairs = [parse(setting, f"--{kind}") for setting in settings.split(",") if settings]
     allowed = [parameter["name"] for parameter in known[name]]
     for key, _ in pairs:
         if key not in allowed:
             has = f"it has {', '.join(allowed)}" if allowed else "it has none"
-            raise RecordError(f"the gate {name!r} has no parameter {key!r}; {has}")
-    return fg.gate(name, **dict(pairs))
+            raise RecordError(f"the {kind} {name!r} has no parameter {key!r}; {has}")
+    return name, dict(pairs)
 
 
 def about(name: str) -> Mapping[str, Any]:

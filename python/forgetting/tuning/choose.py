@@ -49,8 +49,9 @@ def choose(
     runner = Runner(make, parts, threads, progress)
     runner.expected = expected(len(models), names, rates, priors)
     given = [each for each in models if each is not None]
-    orders = best_orders(runner, given) if len(given) > 1 else models[0]
+    orders = best_orders(runner, given) if given else None
     problem = runner.keep(orders)
+    runner.score([Candidate(None, None, orders)], "bank")
     best = search(runner, names, orders, problem, rates, priors)
     if progress is not None:
         progress(runner.runs, runner.runs)

@@ -79,27 +79,31 @@ class Difference:
         return f"Diebold-Mariano p = {self.p_value:.2g}, {self.lags} lags"
 
 
-def difference(loss: ArrayLike, other: ArrayLike) -> Difference:
+def difference(loss: ArrayLike, other: ArrayLike, lags: int | None = None) -> Difference:
     """Compare two sequences of losses of one-step forecasts of the same samples.
 
     Parameters
     ----------
     loss, other : array_like, shape (T,)
         Losses, such as squared errors, in order of time, T ≥ 8.
+    lags : int, optional
+        Over how many lags the differences are taken as correlated, 0 to T/4; chosen from them if
+        not given.
 
     Raises
     ------
     InvalidInput
-        When the shapes differ, a loss is not finite or there are fewer than 8.
+        When the shapes differ, a loss is not finite, there are fewer than 8, or for such `lags`.
     ImportError
         Without SciPy.
 
     Notes
     -----
     The differences d_k of the losses have the variance of their mean V = (γ₀ + 2 Σ w_j γ_j)/T over
-    L lags with the weights w_j = 1 − j/(L + 1) of Bartlett's window. L is the larger of the cube
-    root of T and the length that Andrews (*Econometrica* 59, 1991, (6.2) and (6.4)) found best for
-    a d_k that is autoregressive of first order; at most T/4. The correction takes h = L + 1.
+    L = `lags` with the weights w_j = 1 − j/(L + 1) of Bartlett's window. If not given, L is the
+    larger of the cube root of T and the length that D. W. K. Andrews (*Econometrica* 59, 1991,
+    (6.2) and (6.4)) found best for a d_k that is autoregressive of first order; at most T/4. The
+    correction takes h = L + 1.
 
     Examples
     --------
@@ -115,7 +119,9 @@ def difference(loss: ArrayLike, other: ArrayLike) -> Difference:
     first, second = _checked(loss, other)
     change = first - second
     total = len(change)
-    lags = window(change)
+    lags = window(change) if lags is None else lags
+    if not 0 <= lags <= total // 4:
+        raise InvalidInput(f"lags = {lags}, allowed: 0 to {total // 4}, a quarter of the samples")
     variance = long_run_variance(change, lags) / total
     h = lags + 1
     correction = math.sqrt((total + 1 - 2 * h + h * (h - 1) / total) / total)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -23,6 +24,8 @@ SHORTEST = 2.0
 """Shortest memory, in samples."""
 NOISES = tuple(10.0**power for power in range(-9, 4))
 """Variances of the steps of a random walk, where regressors are in units of their typical size."""
+SPEEDS = (0.0, 1e-5, 1e-3, 1e-1)
+"""Variances of the steps of the random walks that judge the orders of a model."""
 BOUND = 1e5
 """Bound of P for a random walk, as in the default rule of `forgetting.RLS`."""
 VARIANTS = {
@@ -66,6 +69,13 @@ def plain_rule(name: str) -> Rule:
     values = {"bound": BOUND} if name == "random_walk" else {}
     made: Rule = AXES["rule"].make(name, **values)
     return made
+
+
+def speeds() -> list[Rule]:
+    """Random walks from fixed parameters to fast ones."""
+    make: Callable[..., Rule] = AXES["rule"].make
+    walks = [make("random_walk", process_noise=each, bound=BOUND) for each in SPEEDS if each]
+    return [make("none"), *walks]
 
 
 def factor(memory: float) -> float:
@@ -123,6 +133,8 @@ RATES: dict[str, tuple[Scaled, ...]] = {
     "unity_zone": (Scaled("sensitivity", -2, (0.05, 0.5)),),
 }
 """Rates that are tried, with what parameters; what is in units of the errors follows them."""
+SMALLEST = (0.9, 0.5)
+"""The least factor that a rate may take: memories of ten samples and of two."""
 WITHOUT_UNITS = ("f_test",)
 """Rates that also weigh several outputs without regard to their units."""
 NOT_TRIED = ("constant", "schedule", "function")
@@ -137,8 +149,9 @@ def rates(noise: float, outputs: int) -> list[Rate]:
         if not noise > 0 or (outputs > 1 and name not in WITHOUT_UNITS):
             continue
         fixed = {each.name: rounded(each.values[0] * noise**each.power) for each in others}
-        for value in main.values:
-            found.append(make(name, **{main.name: rounded(value * noise**main.power)}, **fixed))
+        for value, least in product(main.values, SMALLEST):
+            tried = {main.name: rounded(value * noise**main.power), "smallest": least}
+            found.append(make(name, **tried, **fixed))
     return found
 
 

@@ -30,7 +30,7 @@ class Trial:
     error : float
         Root mean square, of several outputs the geometric mean; infinite where the run failed.
     stage : str
-        What it was tried for: "orders", "factors", "parameters", "rates" or "priors".
+        What it was tried for: "orders", "bank", "factors", "parameters", "rates" or "priors".
     """
 
     candidate: Candidate

@@ -1,7 +1,7 @@
 """The order in which settings are chosen: cheap runs first, and only the best go on.
 
-Orders of an ARX model are chosen with the bank, which needs no other setting. Every rule is then
-run over a coarse grid of its factor; the grid is made finer around the best of those rules that go
+Orders of an ARX model are chosen first, each at the best of a few speeds. Every rule is then run
+over a coarse grid of its factor; the grid is made finer around the best of those rules that go
 on. Other parameters, rates and priors are tried last, and each must be worth its place: a default
 stays unless something else is better by `MARGIN`.
 """
@@ -29,36 +29,38 @@ ROUNDS = 2
 
 
 def best_orders(runner: Runner, orders: Sequence[Orders]) -> Orders:
-    """The orders with which the bank predicts best."""
-    ranked = runner.score([Candidate(None, None, each) for each in orders], "orders")
-    if ranked[0].error == float("inf"):
+    """The fewest orders that predict about as well as the best, each at its best speed."""
+    if len(orders) == 1:
+        return orders[0]
+    tried = [[Candidate(rule, None, each) for rule in grid.speeds()] for each in orders]
+    runner.score([candidate for candidates in tried for candidate in candidates], "orders")
+    least = [runner.score(candidates, "orders")[0].error for candidates in tried]
+    if min(least) == float("inf"):
         raise InvalidInput("no ARX model could be run on the first part of the record")
-    simplest = sorted(ranked, key=lambda trial: size(trial.candidate.orders))
-    near = ranked[0].error * (1 + MARGIN)
-    found = next(trial.candidate.orders for trial in simplest if trial.error <= near)
-    assert found is not None
-    return found
+    near = min(least) * (1 + MARGIN)
+    return min((each for each, error in zip(orders, least, strict=True) if error <= near), key=size)
 
 
-def size(orders: Orders | None) -> tuple[int, int]:
+def size(orders: Orders) -> tuple[int, int]:
     """Sorts models: fewer parameters first, then the shorter delay."""
-    assert orders is not None
     return orders.na + orders.nb, orders.nk
 
 
 def best_of_each(
-    runner: Runner, rules: Sequence[str], orders: Orders | None, go_on: int | None = None
+    runner: Runner, plain: Sequence[Candidate], go_on: int | None = None
 ) -> list[Trial]:
     """Each rule with its best factor, the best rule first.
 
     Parameters
     ----------
+    plain : sequence of Candidate
+        The rules, with any factor.
     go_on : int, optional
         Of how many rules the factor is found more closely; all if not given.
     """
-    tried = {rule: coarse(runner, rule, orders) for rule in rules}
-    runner.score([each for candidates in tried.values() for each in candidates], "factors")
-    ranked = [runner.score(candidates, "factors") for candidates in tried.values()]
+    tried = [coarse(runner, candidate) for candidate in plain]
+    runner.score([each for candidates in tried for each in candidates], "factors")
+    ranked = [runner.score(candidates, "factors") for candidates in tried]
     ranked.sort(key=lambda trials: trials[0].error)
     going = ranked[:go_on]
     for _ in range(ROUNDS):
@@ -74,14 +76,14 @@ def candidate_of(trial: Trial) -> Candidate:
     return trial.candidate
 
 
-def coarse(runner: Runner, rule: str, orders: Orders | None) -> list[Candidate]:
+def coarse(runner: Runner, plain: Candidate) -> list[Candidate]:
     """The rule with every setting of the first grid."""
-    plain = Candidate(grid.plain_rule(rule), None, orders)
-    name = tuned(rule)
+    assert plain.rule is not None
+    name = tuned(plain.rule.name)
     if name is None:
         return [plain]
-    samples = int(runner.split.choosing.sum())
-    return [plain.with_rule(**{name: value}) for value in grid.settings(rule, samples)]
+    values = grid.settings(plain.rule.name, int(runner.split.choosing.sum()))
+    return [plain.with_rule(**{name: value}) for value in values]
 
 
 def closer(trials: Sequence[Trial]) -> list[Candidate]:
@@ -118,7 +120,8 @@ def search(
     priors: bool,
 ) -> Trial:
     """The best setting of all."""
-    ranked = best_of_each(runner, rules, orders, GO_ON)
+    plain = [Candidate(grid.plain_rule(rule), None, orders) for rule in rules]
+    ranked = best_of_each(runner, plain, GO_ON)
     ranked = [with_variants(runner, trial) for trial in ranked[:GO_ON]]
     ranked.sort(key=lambda trial: trial.error)
     if ranked[0].error == float("inf"):
@@ -176,5 +179,12 @@ def expected(orders: int, rules: Sequence[str], rates: bool, priors: bool) -> in
     """About how many runs a search takes; for a progress bar."""
     grids = sum(grid.MEMORIES if tuned(rule) else 1 for rule in rules)
     more = GO_ON * (2 * ROUNDS + 3) + len(grid.PRIORS) * priors
-    per_rule = sum(len(scaled[0].values) for scaled in grid.RATES.values())
-    return (orders if orders > 1 else 0) + grids + more + rates * WITH_RATES * per_rule
+    values = sum(len(scaled[0].values) for scaled in grid.RATES.values())
+    per_rule = values * len(grid.SMALLEST)
+    return (
+        (orders * len(grid.SPEEDS) if orders > 1 else 0)
+        + 1
+        + grids
+        + more
+        + rates * WITH_RATES * per_rule
+    )
