@@ -43,6 +43,91 @@ def test_named_rules_come_in_the_order_of_their_error(record, capsys):
     assert "there is no rule 'nonsense'" in capsys.readouterr().err
 
 
+@pytest.fixture
+def drifting(tmp_path):
+    """A gain that walks."""
+    random = np.random.default_rng(1)
+    x, gain = random.normal(size=900), np.cumsum(0.1 * random.normal(size=900))
+    frame = pd.DataFrame({"x": x, "y": gain * x + 0.3 * random.normal(size=900)})
+    path = tmp_path / "drifting.csv"
+    frame.to_csv(path, index=False)
+    return path
+
+
+def ranked(command, capsys):
+    assert run([*command, "--json"]) == 0
+    return json.loads(capsys.readouterr().out)
+
+
+def test_every_rule_has_the_factor_that_is_best_on_the_first_part(drifting, capsys):
+    command = ["compare", str(drifting), "--formula", "y ~ 0 + x"]
+    found = ranked([*command, "--rules", "exponential,subspace,random_walk,none"], capsys)
+    frame = pd.read_csv(drifting)
+    phi, y = frame[["x"]].to_numpy(), frame["y"].to_numpy()
+    first, rest = slice(60, 600), slice(600, 900)
+    rms = {}
+    for factor in (0.5, 0.7, 0.8, 0.9, 0.95, 0.98, 0.99, 0.998):
+        estimator = fg.RLS(1, rule=fg.Exponential(factor))
+        error = estimator.run(phi, y, outputs=("error",)).error
+        rms[factor] = np.sqrt(np.mean(error[first] ** 2))
+    by_rule = {each["rule"]: each for each in found["rules"]}
+    chosen = by_rule["exponential"]
+    assert chosen["error_on_first_part"] <= min(rms.values()) * 1.001
+    estimator = fg.RLS(1, rule=fg.Exponential(**chosen["setting"]))
+    error = estimator.run(phi, y, outputs=("error",)).error[rest]
+    assert chosen["error"] == pytest.approx(np.sqrt(np.mean(error**2)), rel=1e-12)
+    assert list(by_rule["random_walk"]["setting"]) == ["process_noise"]
+    assert by_rule["none"]["setting"] is None
+    errors = [each["error"] for each in found["rules"]]
+    assert errors == sorted(errors) and found["rules"][-1]["rule"] == "none"
+    assert found["scored"].startswith("the last 300 samples, each rule with its best factor")
+
+
+def test_a_factor_for_all_is_said_to_be_not_chosen(drifting, capsys):
+    command = ["compare", str(drifting), "--formula", "y ~ 0 + x", "--rules", "exponential,none"]
+    command += ["--forgetting-factor", "0.9"]
+    found = ranked(command, capsys)
+    assert found["scored"] == "all samples, one factor for all rules: none was chosen"
+    assert found["rules"][0]["setting"] == {"forgetting_factor": 0.9}
+    assert found["first_row_of_the_rest"] is None
+    assert run(command) == 0
+    assert "none was chosen" in " ".join(capsys.readouterr().out.split())
+    assert run([*command, "--plot", "x.png"]) == 2
+    assert "which --forgetting-factor fixes" in capsys.readouterr().err
+
+
+def test_units_change_no_ranking(drifting, tmp_path, capsys):
+    frame = pd.read_csv(drifting)
+    other = tmp_path / "other.csv"
+    frame.assign(x=1e3 * frame["x"], y=1e-4 * frame["y"]).to_csv(other, index=False)
+    rules = [r["name"] for r in fg.rules() if r["name"] not in ("custom", "data_dependent")]
+    command = ["--formula", "y ~ x", "--rules", ",".join(rules)]
+    one = ranked(["compare", str(drifting), *command], capsys)["rules"]
+    two = {
+        each["rule"]: each for each in ranked(["compare", str(other), *command], capsys)["rules"]
+    }
+    for each in one:
+        assert two[each["rule"]]["setting"] == each["setting"]
+        assert two[each["rule"]]["error"] == pytest.approx(1e-4 * each["error"], rel=1e-6)
+
+
+def test_the_factors_are_drawn(drifting, tmp_path, capsys):
+    picture = tmp_path / "compare.png"
+    command = ["compare", str(drifting), "--formula", "y ~ x", "--plot", str(picture)]
+    assert run(command) == 0
+    assert picture.read_bytes().startswith(b"\x89PNG")
+    assert f"wrote {picture}" in capsys.readouterr().out
+
+
+def test_a_given_prior_is_used_for_every_rule(drifting, capsys):
+    command = ["compare", str(drifting), "--formula", "y ~ 0 + x", "--rules", "exponential"]
+    found = ranked([*command, "--initial-covariance", "1e-9"], capsys)["rules"][0]
+    frame = pd.read_csv(drifting)
+    estimator = fg.RLS(1, rule=fg.Exponential(**found["setting"]), initial_covariance=1e-9)
+    run_ = estimator.run(frame[["x"]].to_numpy(), frame["y"].to_numpy(), outputs=("error",))
+    assert found["error"] == pytest.approx(np.sqrt(np.mean(run_.error[600:] ** 2)), rel=1e-12)
+
+
 @pytest.mark.parametrize(("rule", "code"), [("exponential", 1), ("subspace", 0)])
 def test_the_certificate_tells_windup_by_its_exit_code(record, rule, code, capsys):
     command = ["certify", record, "--formula", "y ~ 0 + x", "--rule", rule]
