@@ -4,7 +4,8 @@
 #   make bench   speed beside Eigen, dlib, Numba, NumPy by hand, ... in a few minutes; bench-full: all peers
 #                and sizes. For the C++ peers: a C++ compiler, and Debian's libeigen3-dev, libdlib-dev,
 #                libopenblas0-pthread; without them the report says what is missing
-#   make accuracy RECORDS=folder    one-step errors beside the best that could have been chosen in hindsight
+#   make accuracy   one-step errors beside peers and the best that could have been chosen in hindsight, on the
+#                records of the demo; RECORDS=folder for other ones, .csv or .parquet
 #   make docs    the documentation, warnings as errors
 #   make fuzz    random input for FUZZ_SECONDS a target (an hour), new seeds each time
 #   make soak    a billion samples through every rule of O(n^2), in hours; goes on where it was stopped
@@ -19,14 +20,14 @@ PROFILE := fast
 DEVELOP = . $(BIN)/activate && maturin develop --quiet
 # Two records inside wheels. Their own dependencies clash with ours and are not needed to read them, so
 # they lie in a folder of their own, which only what reads them is shown.
-RECORDS := pvanalytics==0.2.2 sweat==0.25.0
+SHIPPED := pvanalytics==0.2.2 sweat==0.25.0
 WITH_RECORDS = PYTHONPATH=$(CURDIR)/$(VENV)/records
 
 FUZZ_SECONDS ?= 3600
 SOAK_STEPS ?= 1000000000
 SOAK_FOLDER ?= $(CURDIR)/build/soak
 
-.PHONY: fuzz soak demo test lint rust python build bench bench-full docs stubs clean
+.PHONY: accuracy fuzz soak demo test lint rust python build bench bench-full docs stubs clean
 
 demo: $(VENV)/records
 	$(DEVELOP) --profile $(PROFILE) --extras cli
@@ -57,7 +58,7 @@ $(VENV)/maturin:
 	touch $@
 
 $(VENV)/records: $(VENV)/maturin
-	$(PIP) install --no-deps --target $@ $(RECORDS)
+	$(PIP) install --no-deps --target $@ $(SHIPPED)
 
 $(VENV)/ready: pyproject.toml $(VENV)/records
 	cargo clippy --version >/dev/null && cargo fmt --version >/dev/null
@@ -83,9 +84,9 @@ docs: build
 PEERS = sed -e 's/ *\#.*//' -e '/^$$/d' $(1) | while read peer; do \
 	$(PIP) install --no-warn-conflicts "$$peer" || echo "not installed: $$peer" >&2; done
 
-RECORDS ?= $(error RECORDS is not set: make accuracy RECORDS=folder, of .csv or .parquet files)
 accuracy: build
-	$(BIN)/python -m benchmarks.accuracy $(RECORDS)
+	$(call PEERS,benchmarks/requirements-accuracy.txt)
+	$(WITH_RECORDS) $(BIN)/python -m benchmarks.accuracy $(RECORDS)
 
 bench: $(VENV)/ready
 	$(DEVELOP) --release

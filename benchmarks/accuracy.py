@@ -1,33 +1,37 @@
 """How accurate is an estimator that was told nothing, beside the best that could have been chosen?
 
+    python -m benchmarks.accuracy               # records inside the packages that `make demo` needs
     python -m benchmarks.accuracy FOLDER        # a folder of records, .csv or .parquet
 
-Each record is an ARX model of its last column on the others, two past outputs, two of each input
-and an offset; or, with --formula, any model. For each: the root mean square of the one-step errors
-from a tenth of the record on, over that of the best of a grid of rules, factors and priors, with
-every column scaled to unit mean square (hindsight: scale and grid see the whole record). Peers run
-at their defaults, on the columns as they are.
+Each record of a folder is an ARX model of its last column on the others, two past outputs, two of
+each input and an offset; or, with --formula, any model. For each: the root mean square of the
+one-step errors from a tenth of the record on, over that of the best of a grid of rules, factors and
+priors, with every column scaled to unit mean square (hindsight: scale and grid see the whole
+record). Peers run at their defaults, on the columns as they are. One that is not installed is
+named; one that fails on a record has there how it failed in place of a number.
 """
 
 from __future__ import annotations
 
 import argparse
+import warnings
 from collections.abc import Callable, Iterator
+from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 import forgetting as fg
-from forgetting.record.identify import build
-from forgetting.record.read import read
+
+from .accuracy_peers import PEERS
+from .accuracy_records import Problem, of_folder, packaged
 
 Array = NDArray[np.float64]
 Candidate = Callable[[Array, Array], Array]
 
 FACTORS = (0.8, 0.9, 0.95, 0.97, 0.98, 0.99, 0.995, 0.998, 0.999, 0.9995)
 PRIORS = (1e2, 1e4, 1e8)
-SUFFIXES = (".csv", ".parquet")
 
 
 def grid(prior: float) -> Iterator[object]:
@@ -67,65 +71,83 @@ def hindsight(phi: Array, y: Array) -> float:
 
 
 def candidates() -> dict[str, Candidate]:
-    """What is told nothing: ours, and peers that are installed."""
+    """What is told nothing: ours, and peers that are installed; one row is told the best factor."""
     found: dict[str, Candidate] = {
-        "fg.Bank(n)": lambda phi, y: errors(fg.Bank(phi.shape[1]), phi, y),
-        "fg.RLS(n)": lambda phi, y: errors(fg.RLS(phi.shape[1]), phi, y),
+        "`Bank(n)`": lambda phi, y: errors(fg.Bank(phi.shape[1]), phi, y),
+        "`RLS(n)`": lambda phi, y: errors(fg.RLS(phi.shape[1]), phi, y),
         "no forgetting": lambda phi, y: errors(fg.RLS(phi.shape[1], rule="none"), phi, y),
         "exponential 0.99": lambda phi, y: errors(fg.RLS(phi.shape[1], rule="exponential"), phi, y),
+        "exponential, λ in hindsight": best_exponential,
         "last value": lambda phi, y: np.concatenate([[0.0], np.diff(y)]),
     }
+    return found | {name: run for name, (package, run) in PEERS.items() if find_spec(package)}
+
+
+def best_exponential(phi: Array, y: Array) -> Array:
+    """Exponential forgetting with the factor that is best on this very record."""
+    tried = []
+    for factor in FACTORS:
+        try:
+            estimator = fg.RLS(phi.shape[1], rule=fg.rule("exponential", forgetting_factor=factor))
+            tried.append(errors(estimator, phi, y))
+        except fg.NumericalRange:
+            continue
+    return min(tried, key=rms)
+
+
+def ratio(run: Candidate, phi: Array, y: Array, best: float) -> tuple[float, str]:
+    """The error over the best of hindsight, infinite where it fails, and how."""
     try:
-        import padasip  # type: ignore[import-not-found,unused-ignore]
-    except ImportError:
-        return found
-    found["padasip FilterRLS"] = lambda phi, y: np.asarray(
-        padasip.filters.FilterRLS(phi.shape[1]).run(y, phi)[1]
-    )
-    return found
+        with warnings.catch_warnings(), np.errstate(all="ignore"):
+            warnings.simplefilter("ignore")
+            found = rms(run(phi, y)) / best
+    except Exception as error:
+        # whatever a peer raises is its result
+        return np.inf, type(error).__name__
+    return found, "" if np.isfinite(found) else "not finite"
 
 
-def problems(folder: Path, formula: str | None) -> Iterator[tuple[str, Array, Array]]:
-    """Regressors and output of each record of a folder."""
-    for path in sorted(p for p in folder.iterdir() if p.suffix in SUFFIXES):
-        record = read(path)
-        names = [str(name) for name in record.frame.columns]
-        if record.clock is not None:
-            names.remove(record.clock.name)
-        if formula is None:
-            samples = build(record, None, [names[-1]], names[:-1], (2, 2, 1))
-        else:
-            samples = build(record, formula, [], [], None)
-        complete = samples.complete
-        yield path.stem, samples.phi[complete], samples.y[complete, 0]
-
-
-def report(folder: Path, formula: str | None = None) -> Iterator[str]:
-    """The lines of a table."""
+def report(problems: Iterator[Problem]) -> Iterator[str]:
+    """The lines of two tables: record by record, and what it comes to."""
     chosen = candidates()
-    yield "| record | " + " | ".join(chosen) + " |"
-    yield "|---|" + "---|" * len(chosen)
-    ratios = []
-    for name, phi, y in problems(folder, formula):
+    for name, (package, _) in PEERS.items():
+        if name not in chosen:
+            yield f"not installed: {package}, so no {name}"
+    yield "| record | samples | n | " + " | ".join(chosen) + " |"
+    yield "|---|---|---|" + "---|" * len(chosen)
+    rows = []
+    for name, phi, y in problems:
         best = hindsight(phi, y)
-        ratios.append([rms(run(phi, y)) / best for run in chosen.values()])
-        yield f"| {name} | " + " | ".join(f"{ratio:.3f}" for ratio in ratios[-1]) + " |"
-    if ratios:
-        mean = np.exp(np.mean(np.log(ratios), axis=0))
-        worst = np.max(ratios, axis=0)
-        yield "| geometric mean | " + " | ".join(f"{ratio:.3f}" for ratio in mean) + " |"
-        yield "| worst | " + " | ".join(f"{ratio:.3f}" for ratio in worst) + " |"
+        found = [ratio(run, phi, y, best) for run in chosen.values()]
+        rows.append([value for value, _ in found])
+        cells = " | ".join(failed or f"{value:.3f}" for value, failed in found)
+        yield f"| {name} | {len(y)} | {phi.shape[1]} | {cells} |"
+    yield from summary(list(chosen), np.array(rows).reshape(-1, len(chosen)))
+
+
+def summary(names: list[str], ratios: Array) -> Iterator[str]:
+    """A line for each candidate: mean and worst, and on how many records it failed."""
+    yield "\n| | geometric mean | worst | failed |"
+    yield "|---|---|---|---|"
+    for name, column in zip(names, ratios.T, strict=True):
+        done = column[np.isfinite(column)]
+        failed = len(column) - len(done)
+        mean = f"{np.exp(np.mean(np.log(done))):.3g}" if len(done) else "-"
+        note = f"{mean} on {len(done)} records" if failed else mean
+        worst = "no bound" if failed else f"{done.max():.3g}" if len(done) else "-"
+        yield f"| {name} | {note} | {worst} | {failed or '-'} |"
 
 
 def main() -> None:
-    """Print the table."""
+    """Print the tables."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("folder", type=Path)
+    parser.add_argument("folder", type=Path, nargs="?")
     parser.add_argument("--formula", help="one model for all records, in place of ARX")
     asked = parser.parse_args()
-    for line in report(asked.folder, asked.formula):
+    problems = packaged() if asked.folder is None else of_folder(asked.folder, asked.formula)
+    for line in report(problems):
         print(line, flush=True)
 
 
