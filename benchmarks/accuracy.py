@@ -120,9 +120,14 @@ def report(problems: Iterator[Problem]) -> Iterator[str]:
         best = hindsight(phi, y)
         found = [ratio(run, phi, y, best) for run in chosen.values()]
         rows.append([value for value, _ in found])
-        cells = " | ".join(failed or f"{value:.3f}" for value, failed in found)
+        cells = " | ".join(failed or number(value) for value, failed in found)
         yield f"| {name} | {len(y)} | {phi.shape[1]} | {cells} |"
     yield from summary(list(chosen), np.array(rows).reshape(-1, len(chosen)))
+
+
+def number(value: float) -> str:
+    """Three decimals, or the order of magnitude."""
+    return f"{value:.3f}" if value < 1000 else f"{value:.1e}"
 
 
 def summary(names: list[str], ratios: Array) -> Iterator[str]:

@@ -40,10 +40,11 @@ def test_what_is_chosen_predicts_the_rest_as_it_says():
 
 
 def test_the_chosen_has_the_least_error_of_all_but_the_margin():
+    """A bounded rule, a plain factor and the usual prior each may cost the margin of 0.5 %."""
     phi, y = drifting()
     found = fg.tune(phi, y)
     rules = [t.error for t in found.trials if t.candidate.rule is not None]
-    assert found.best.error <= min(rules) * 1.005
+    assert found.best.error <= min(rules) / 0.995**3
     stages = {trial.stage for trial in found.trials}
     assert stages == {"bank", "factors", "parameters", "rates", "priors"} - (
         {"priors"} if found.rule.parameters else set()
@@ -110,6 +111,21 @@ def test_the_number_of_runs_is_bounded(rules):
     names = grid.named_rules(rules)
     assert found.runs <= 13 * len(names) + 2 * 34 + 20
     assert len({repr(trial.candidate) for trial in found.trials}) == found.runs
+
+
+def test_a_rule_that_may_wind_up_must_be_worth_it():
+    phi, y = drifting()
+    both = ["exponential", "exponential_resetting"]
+    found = fg.tune(phi, y, rules=both, rates=False, priors=False)
+    best = {}
+    for trial in found.trials:
+        if trial.candidate.rule is not None:
+            name = trial.candidate.rule.name
+            best[name] = min(best.get(name, np.inf), trial.error)
+    assert best["exponential"] < best["exponential_resetting"]
+    assert found.rule.name == "exponential_resetting"
+    alone = fg.tune(phi, y, rules=[both[0], "none"], rates=False, priors=False)
+    assert alone.rule.name == "exponential"
 
 
 def test_a_rate_is_proposed_where_it_pays():

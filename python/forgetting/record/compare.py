@@ -157,7 +157,7 @@ def compare(
     samples = build(record, formula, listed(output), listed(input), arx)
     parts, trials = None, []
     if forgetting_factor is None:
-        parts = split(problem(samples), share)
+        parts = two_parts(samples, share)
         plain = [Candidate(fg.rule(name), prior(initial_covariance, samples)) for name in rules]
         runner = Runner(lambda _: problem(samples), parts, progress=progress)
         runner.keep(None)
@@ -183,6 +183,15 @@ def compare(
             refused.append(f"{rule.name}: {error}")
     ranked.sort(key=lambda each: each.error)
     return Comparison(ranked, refused, parts, trials)
+
+
+def two_parts(samples: Samples, share: float) -> Split:
+    """The part that chooses and the rest; refused with the way out where there are too few."""
+    try:
+        return split(problem(samples), share)
+    except fg.InvalidInput as error:
+        way_out = "one forgetting factor for all rules needs no such parts"
+        raise fg.InvalidInput(f"{error}; {way_out}") from None
 
 
 def fixed(name: str, forgetting_factor: float) -> Candidate:

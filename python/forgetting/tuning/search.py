@@ -3,7 +3,8 @@
 Orders of an ARX model are chosen first, each at the best of a few speeds. Every rule is then run
 over a coarse grid of its factor; the grid is made finer around the best of those rules that go
 on. Other parameters, rates and priors are tried last, and each must be worth its place: a default
-stays unless something else is better by `MARGIN`.
+stays unless something else is better by `MARGIN`. So must a rule without a bound of P, as the input
+may fall silent in the rest.
 """
 
 from __future__ import annotations
@@ -126,8 +127,22 @@ def search(
     ranked.sort(key=lambda trial: trial.error)
     if ranked[0].error == float("inf"):
         raise InvalidInput(f"none of the rules {', '.join(rules)} could be run on the first part")
+    ranked.insert(0, preferred(ranked))
     found = with_rates(runner, ranked, problem.y.shape[1]) if rates else ranked[0]
     return with_priors(runner, found, problem) if priors else found
+
+
+def preferred(ranked: Sequence[Trial]) -> Trial:
+    """The best rule, but by the margin rather one of which P stays bounded without excitation."""
+    bounded = [trial for trial in ranked if is_bounded(trial.candidate)]
+    near = bounded and ranked[0].error >= bounded[0].error * (1 - MARGIN)
+    return bounded[0] if near else ranked[0]
+
+
+def is_bounded(candidate: Candidate) -> bool:
+    """Whether the registry knows a bound of P from above for the rule."""
+    assert candidate.rule is not None
+    return bool(candidate.rule.about["bounded_above"] != "no")
 
 
 def worth(runner: Runner, plain: Trial, others: Sequence[Candidate], stage: str) -> Trial:
@@ -147,7 +162,7 @@ def with_variants(runner: Runner, trial: Trial) -> Trial:
 
 def with_rates(runner: Runner, ranked: Sequence[Trial], outputs: int) -> Trial:
     """The best of all: a rate with one of the best rules, where that is worth it."""
-    taking = [trial.candidate for trial in ranked if takes_a_rate(trial.candidate)]
+    taking = list(dict.fromkeys(t.candidate for t in ranked if takes_a_rate(t.candidate)))
     others = [
         candidate.with_rule(forgetting_factor=rate)
         for candidate in taking[:WITH_RATES]
