@@ -7,7 +7,10 @@ import pytest
 
 import forgetting as fg
 from forgetting.tuning import grid
+from forgetting.tuning.candidate import Candidate
 from forgetting.tuning.code import code
+from forgetting.tuning.runner import Trial
+from forgetting.tuning.search import preferred
 
 KEY = {"bank", "no_forgetting", "last_value"}
 
@@ -114,18 +117,11 @@ def test_the_number_of_runs_is_bounded(rules):
 
 
 def test_a_rule_that_may_wind_up_must_be_worth_it():
-    phi, y = drifting()
-    both = ["exponential", "exponential_resetting"]
-    found = fg.tune(phi, y, rules=both, rates=False, priors=False)
-    best = {}
-    for trial in found.trials:
-        if trial.candidate.rule is not None:
-            name = trial.candidate.rule.name
-            best[name] = min(best.get(name, np.inf), trial.error)
-    assert best["exponential"] < best["exponential_resetting"]
-    assert found.rule.name == "exponential_resetting"
-    alone = fg.tune(phi, y, rules=[both[0], "none"], rates=False, priors=False)
-    assert alone.rule.name == "exponential"
+    bounded = Trial(Candidate(fg.Subspace(0.9)), 1.0, "factors")
+    for error, wanted in ((0.996, "subspace"), (0.994, "exponential")):
+        unbounded = Trial(Candidate(fg.Exponential(0.9)), error, "factors")
+        assert preferred([unbounded, bounded]).candidate.rule.name == wanted
+        assert preferred([unbounded]) is unbounded
 
 
 def test_a_rate_is_proposed_where_it_pays():
