@@ -96,6 +96,19 @@ def test_a_factor_for_all_is_said_to_be_not_chosen(drifting, capsys):
     assert "which --forgetting-factor fixes" in capsys.readouterr().err
 
 
+def test_a_short_record_is_said_to_be_too_short_to_choose_by(drifting, tmp_path, capsys):
+    short = tmp_path / "short.csv"
+    pd.read_csv(drifting).head(60).to_csv(short, index=False)
+    command = ["compare", str(short), "--formula", "y ~ x", "--rules", "exponential,none"]
+    found = ranked(command, capsys)
+    assert found["scored"].endswith("the record is too short to choose factors")
+    by_rule = {each["rule"]: each for each in found["rules"]}
+    assert by_rule["exponential"]["setting"] == {"forgetting_factor": 0.99}
+    assert by_rule["exponential"]["error_on_first_part"] is None
+    assert run([*command, "--plot", str(tmp_path / "x.png")]) == 2
+    assert "there is no choice to draw" in capsys.readouterr().err
+
+
 def test_units_change_no_ranking(drifting, tmp_path, capsys):
     frame = pd.read_csv(drifting)
     other = tmp_path / "other.csv"

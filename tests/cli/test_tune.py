@@ -213,5 +213,8 @@ def test_a_rate_is_an_option_of_identify(forgetting, battery):
         ("f_test:sensitivity", "--rate takes name=value"),
     ):
         assert words in forgetting(*model, "--rate", text).sentence()
+    certified = ("certify", *model[1:-2], "--rule", "exponential", "--rate")
+    assert forgetting(*certified, "f_test").code == 0
+    assert "no rate 'nonsense'" in forgetting(*certified, "nonsense").sentence()
     both = forgetting(*model, "--rate", "f_test", "--forgetting-factor", "0.9")
     assert "say --forgetting-factor or --rate, not both" in both.sentence()

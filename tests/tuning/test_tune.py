@@ -8,7 +8,7 @@ import pytest
 import forgetting as fg
 from forgetting.tuning import grid
 from forgetting.tuning.candidate import Candidate
-from forgetting.tuning.code import code
+from forgetting.tuning.code import code, estimator_code, model_code
 from forgetting.tuning.runner import Trial
 from forgetting.tuning.search import preferred
 
@@ -168,6 +168,25 @@ def test_code_makes_the_same_rule(name):
         for rate in grid.rates(0.3, 1):
             rule = fg.rule(name, forgetting_factor=rate)
             assert eval(code(rule)) == rule
+
+
+def test_code_of_several_outputs_and_of_a_prior():
+    phi, y = drifting(outputs=2)
+    found = fg.tune(phi, y, rates=False)
+    for line in (found.lines.python, found.lines_of_bank.python):
+        assert eval(line).targets == 2
+    line = estimator_code(Candidate(fg.Exponential(0.9), (1e-7, 2.0, 3e9)), 3, 1)
+    assert np.allclose(eval(line).covariance, np.diag([1e-7, 2.0, 3e9]), rtol=1e-12)
+    line = model_code(Candidate(fg.Exponential(0.9), (0.5, 2.0), fg.models.Orders(1, 1, 1)))
+    assert np.allclose(eval(line).fit([0.0], [0.0]).covariance_, np.diag([0.5, 2.0]))
+
+
+def test_without_noise_it_goes_through():
+    phi, _ = drifting(400)
+    for y in (phi @ [1.0, 2.0, 3.0], np.zeros(400)):
+        found = fg.tune(phi, y)
+        assert found.rest.error("tuned") < 1e-6
+        assert eval(found.python).parameters == 3
 
 
 def test_orders_are_found():

@@ -55,7 +55,7 @@ def compare(
 
     Every rule has its default parameters and its own best forgetting factor (a random walk its
     best process noise), chosen on the first part of the record; ranked by the rest. With
-    --forgetting-factor all have that one, and all samples count.
+    --forgetting-factor all have that one, and all samples count, as they do in a short record.
     """
     from forgetting.record.compare import compare as compare_rules
 
@@ -122,6 +122,8 @@ def print_ranking(found: Comparison) -> None:
 
 def write(found: Comparison, report: Path | None, plot: Path | None) -> list[Path]:
     """Write what was asked for; pages and pictures are loaded only then."""
+    if plot is not None and found.unchosen is not None:
+        raise RecordError(f"--plot: there is no choice to draw ({found.unchosen})")
     if report is not None:
         save(found, report)
     if plot is not None:

@@ -18,9 +18,13 @@ from forgetting.record.tune import problem
 from forgetting.tuning.baseline import rms, typical
 from forgetting.tuning.candidate import Candidate, tuned
 from forgetting.tuning.choose import SHARE
+from forgetting.tuning.grid import MEMORIES
 from forgetting.tuning.problem import Split, split
 from forgetting.tuning.runner import Progress, Runner, Trial
-from forgetting.tuning.search import best_of_each
+from forgetting.tuning.search import ROUNDS, best_of_each
+
+MOST_RUNS = MEMORIES + 2 * ROUNDS
+"""Runs in which a rule finds its factor; for the progress bar."""
 
 
 @dataclass(frozen=True)
@@ -76,7 +80,9 @@ class Comparison:
     refused : list of str
         Rules that did not get through the record, and why.
     split : Split or None
-        The part that chose and the rest; None where one factor was given for all.
+        The part that chose and the rest; None where nothing was chosen.
+    unchosen : str or None
+        Why nothing was chosen.
     trials : list of Trial
         All factors that were tried.
     """
@@ -84,12 +90,13 @@ class Comparison:
     ranked: list[Compared]
     refused: list[str]
     split: Split | None
+    unchosen: str | None
     trials: list[Trial]
 
     def scored_in_words(self) -> str:
         """Which samples the errors are of, and what was chosen."""
         if self.split is None:
-            return "all samples, one factor for all rules: none was chosen"
+            return f"all samples, {self.unchosen}"
         count = int(self.split.reporting.sum())
         return f"the last {count} samples, each rule with its best factor on those before"
 
@@ -132,7 +139,8 @@ def compare(
     rules : sequence of str
         Registry names.
     forgetting_factor : float, optional
-        One for all rules that have one: nothing is chosen, and all samples are scored.
+        One for all rules that have one: nothing is chosen, and all samples are scored. So they are
+        where the record is too short to choose by: rules have their defaults then.
     share : float
         Of the complete samples, those that choose.
     progress : callable, optional
@@ -155,17 +163,20 @@ def compare(
     ['exponential', 'none']
     """
     samples = build(record, formula, listed(output), listed(input), arx)
-    parts, trials = None, []
-    if forgetting_factor is None:
-        parts = two_parts(samples, share)
-        plain = [Candidate(fg.rule(name), prior(initial_covariance, samples)) for name in rules]
-        runner = Runner(lambda _: problem(samples), parts, progress=progress)
-        runner.keep(None)
-        runner.expected = sum(13 if tuned(name) else 1 for name in rules)
-        chosen = best_of_each(runner, plain)
-        trials = runner.trials
-    else:
+    parts, unchosen = split(problem(samples), share), None
+    plain = [Candidate(fg.rule(name), prior(initial_covariance, samples)) for name in rules]
+    runner = Runner(lambda _: problem(samples), parts, progress=progress)
+    if forgetting_factor is not None:
+        unchosen = "one factor for all rules: none was chosen"
         chosen = [Trial(fixed(name, forgetting_factor), np.nan, "given") for name in rules]
+    elif not parts.is_enough:
+        unchosen = "all rules at their defaults: the record is too short to choose factors"
+        chosen = [Trial(candidate, np.nan, "default") for candidate in plain]
+    else:
+        runner.keep(None)
+        runner.expected = sum(MOST_RUNS if tuned(name) else 1 for name in rules)
+        chosen = best_of_each(runner, plain)
+    scored = None if unchosen else parts
     model: dict[str, Any] = {
         "formula": formula,
         "output": output,
@@ -178,20 +189,11 @@ def compare(
         rule = trial.candidate.rule
         assert rule is not None
         try:
-            ranked.append(ranked_by(trial, identify(record, rule=rule, **model), parts))
+            ranked.append(ranked_by(trial, identify(record, rule=rule, **model), scored))
         except fg.NumericalRange as error:
             refused.append(f"{rule.name}: {error}")
     ranked.sort(key=lambda each: each.error)
-    return Comparison(ranked, refused, parts, trials)
-
-
-def two_parts(samples: Samples, share: float) -> Split:
-    """The part that chooses and the rest; refused with the way out where there are too few."""
-    try:
-        return split(problem(samples), share)
-    except fg.InvalidInput as error:
-        way_out = "one forgetting factor for all rules needs no such parts"
-        raise fg.InvalidInput(f"{error}; {way_out}") from None
+    return Comparison(ranked, refused, scored, unchosen, runner.trials)
 
 
 def fixed(name: str, forgetting_factor: float) -> Candidate:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from forgetting.models.orders import Orders
 from forgetting.tuning import grid
 from forgetting.tuning.candidate import Candidate
-from forgetting.tuning.problem import Problem, split
+from forgetting.tuning.problem import Problem, check, split
 from forgetting.tuning.report import report
 from forgetting.tuning.result import Lines, Tuning
 from forgetting.tuning.runner import Make, Progress, Runner
@@ -45,7 +45,7 @@ def choose(
         How to use a candidate.
     """
     names = grid.named_rules(rules if isinstance(rules, str) else list(rules))
-    parts = split(covering, share)
+    parts = check(split(covering, share), share)
     runner = Runner(make, parts, threads, progress)
     runner.expected = expected(len(models), names, rates, priors)
     given = [each for each in models if each is not None]

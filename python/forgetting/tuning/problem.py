@@ -58,6 +58,16 @@ class Split:
     choosing: Mask
     reporting: Mask
 
+    @property
+    def counts(self) -> tuple[int, int]:
+        """Scored samples of the two parts."""
+        return int(self.choosing.sum()), int(self.reporting.sum())
+
+    @property
+    def is_enough(self) -> bool:
+        """Whether a choice, and a report on it, would be of more than noise."""
+        return self.counts[0] >= FEWEST_CHOOSING and self.counts[1] >= FEWEST_REPORTING
+
 
 def split(problem: Problem, share: float) -> Split:
     """Cut a record in two, with `share` of its complete samples in the first part.
@@ -69,7 +79,7 @@ def split(problem: Problem, share: float) -> Split:
     Raises
     ------
     InvalidInput
-        When `share` is not between 0 and 1, or a part has too few samples.
+        When `share` is not between 0 and 1.
     """
     if not 0 < share < 1:
         raise InvalidInput(f"share = {share:g}, allowed: between 0 and 1, both excluded")
@@ -80,11 +90,21 @@ def split(problem: Problem, share: float) -> Split:
     row = int(np.searchsorted(count, first, side="right")) if first else 0
     before = np.arange(len(complete)) < row
     start = max(2 * problem.phi.shape[1], first // 10)
-    choosing, reporting = known & before & (count > start), known & ~before
-    scored = int(choosing.sum()), int(reporting.sum())
-    if scored[0] < FEWEST_CHOOSING or scored[1] < FEWEST_REPORTING:
+    return Split(row, known & before & (count > start), known & ~before)
+
+
+def check(parts: Split, share: float) -> Split:
+    """The parts, if they have enough samples.
+
+    Raises
+    ------
+    InvalidInput
+        With the counts.
+    """
+    if not parts.is_enough:
         raise InvalidInput(
-            f"with share = {share:g} there are {scored[0]} samples to choose by and {scored[1]} to "
-            f"report on; at least {FEWEST_CHOOSING} and {FEWEST_REPORTING} are needed"
+            f"with share = {share:g} there are {parts.counts[0]} samples to choose by and "
+            f"{parts.counts[1]} to report on; at least {FEWEST_CHOOSING} and {FEWEST_REPORTING} "
+            "are needed"
         )
-    return Split(row, choosing, reporting)
+    return parts
