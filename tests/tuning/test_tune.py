@@ -10,7 +10,7 @@ from forgetting.tuning import grid
 from forgetting.tuning.candidate import Candidate
 from forgetting.tuning.code import code, estimator_code, model_code
 from forgetting.tuning.runner import Trial
-from forgetting.tuning.search import preferred
+from forgetting.tuning.worth import preferred
 
 KEY = {"bank", "no_forgetting", "last_value"}
 

@@ -19,7 +19,7 @@ from forgetting.words.errors import RecordError
 from forgetting.words.rounding import brief
 
 if TYPE_CHECKING:
-    from forgetting.record.compare import Compared, Comparison
+    from forgetting.record.comparison import Compared, Comparison
 
 MEANING = (
     "Factor: the forgetting factor, of a random walk its process noise. Each prediction is made "

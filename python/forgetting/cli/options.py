@@ -178,6 +178,7 @@ Share = Annotated[
         "Of the complete samples, those that choose; the rest is what is reported on.",
         "--share",
         metavar="SHARE",
+        show_default="two thirds",
     ),
 ]
 Dtype = Annotated[str, option(RULE, "float64 or float32.", "--dtype")]

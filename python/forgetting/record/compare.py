@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 import forgetting as fg
-from forgetting.record.identification import Identification, finite
+from forgetting.record.comparison import Compared, Comparison
+from forgetting.record.identification import Identification
 from forgetting.record.identify import build, identify, listed
 from forgetting.record.read import Record
 from forgetting.record.samples import Samples
@@ -25,93 +25,6 @@ from forgetting.tuning.search import ROUNDS, best_of_each
 
 MOST_RUNS = MEMORIES + 2 * ROUNDS
 """Runs in which a rule finds its factor; for the progress bar."""
-
-
-@dataclass(frozen=True)
-class Compared:
-    """A rule on a record.
-
-    Attributes
-    ----------
-    name : str
-        Registry name of the rule.
-    found : Identification
-        Its run over the whole record.
-    error : float
-        One-step root mean square error on the rest of the record, or, where nothing was chosen, on
-        all of it; of several outputs the geometric mean.
-    chosen_by : float or None
-        The error on the first part, by which its factor was chosen; None where it was not.
-    """
-
-    name: str
-    found: Identification
-    error: float
-    chosen_by: float | None
-
-    @property
-    def setting(self) -> tuple[str, Any] | None:
-        """The parameter that says how much the rule forgets, and its value."""
-        name = tuned(self.name)
-        return None if name is None else (name, self.found.rule.arguments()[name])
-
-    def summary(self) -> dict[str, Any]:
-        """The rule for JSON."""
-        ends = self.found.trace.eigenvalues[-1]
-        return {
-            "rule": self.name,
-            "setting": None if self.setting is None else dict([self.setting]),
-            "error": self.error,
-            "error_on_first_part": self.chosen_by,
-            "left_out": len(self.found.samples.y) - self.found.used,
-            "largest_eigenvalue": float(ends[-1]),
-            "covariance_ratio": self.found.covariance_ratio,
-        }
-
-
-@dataclass(frozen=True)
-class Comparison:
-    """Rules ranked by their error.
-
-    Attributes
-    ----------
-    ranked : list of Compared
-        The best first.
-    refused : list of str
-        Rules that did not get through the record, and why.
-    split : Split or None
-        The part that chose and the rest; None where nothing was chosen.
-    unchosen : str or None
-        Why nothing was chosen.
-    trials : list of Trial
-        All factors that were tried.
-    """
-
-    ranked: list[Compared]
-    refused: list[str]
-    split: Split | None
-    unchosen: str | None
-    trials: list[Trial]
-
-    def scored_in_words(self) -> str:
-        """Which samples the errors are of, and what was chosen."""
-        if self.split is None:
-            return f"all samples, {self.unchosen}"
-        count = int(self.split.reporting.sum())
-        return f"the last {count} samples, each rule with its best factor on those before"
-
-    def summary(self) -> dict[str, Any]:
-        """All of it for JSON: None where a number is not finite."""
-        samples = self.ranked[0].found.samples if self.ranked else None
-        found = {
-            "record": None if samples is None else samples.source,
-            "model": None if samples is None else samples.model,
-            "scored": self.scored_in_words(),
-            "first_row_of_the_rest": None if self.split is None else self.split.row,
-            "rules": [each.summary() for each in self.ranked],
-            "refused": self.refused,
-        }
-        return dict(finite(found))
 
 
 def compare(
@@ -134,8 +47,10 @@ def compare(
 
     Parameters
     ----------
-    record, formula, output, input, arx, initial_covariance
+    record, formula, output, input, arx
         The record and the model, see `forgetting.record.identify`.
+    initial_covariance : float or array_like of shape (n,), optional
+        P before the first sample, or its diagonal; follows the data if not given.
     rules : sequence of str
         Registry names.
     forgetting_factor : float, optional
@@ -163,9 +78,10 @@ def compare(
     ['exponential', 'none']
     """
     samples = build(record, formula, listed(output), listed(input), arx)
-    parts, unchosen = split(problem(samples), share), None
+    parts = split(problem(samples), share)
     plain = [Candidate(fg.rule(name), prior(initial_covariance, samples)) for name in rules]
     runner = Runner(lambda _: problem(samples), parts, progress=progress)
+    unchosen = None
     if forgetting_factor is not None:
         unchosen = "one factor for all rules: none was chosen"
         chosen = [Trial(fixed(name, forgetting_factor), np.nan, "given") for name in rules]
@@ -176,24 +92,26 @@ def compare(
         runner.keep(None)
         runner.expected = sum(MOST_RUNS if tuned(name) else 1 for name in rules)
         chosen = best_of_each(runner, plain)
+    model = {"formula": formula, "output": output, "input": input, "arx": arx}
+    settings = {**model, "initial_covariance": initial_covariance}
     scored = None if unchosen else parts
-    model: dict[str, Any] = {
-        "formula": formula,
-        "output": output,
-        "input": input,
-        "arx": arx,
-        "initial_covariance": initial_covariance,
-    }
+    ranked, refused = ranking(chosen, record, scored, settings)
+    return Comparison(ranked, refused, scored, unchosen, runner.trials)
+
+
+def ranking(
+    chosen: Sequence[Trial], record: Record, parts: Split | None, settings: dict[str, Any]
+) -> tuple[list[Compared], list[str]]:
+    """Every rule run over the whole record, the best first; and those that did not get through."""
     ranked, refused = [], []
     for trial in chosen:
         rule = trial.candidate.rule
         assert rule is not None
         try:
-            ranked.append(ranked_by(trial, identify(record, rule=rule, **model), scored))
+            ranked.append(ranked_by(trial, identify(record, rule=rule, **settings), parts))
         except fg.NumericalRange as error:
             refused.append(f"{rule.name}: {error}")
-    ranked.sort(key=lambda each: each.error)
-    return Comparison(ranked, refused, scored, unchosen, runner.trials)
+    return sorted(ranked, key=lambda each: each.error), refused
 
 
 def fixed(name: str, forgetting_factor: float) -> Candidate:

@@ -71,7 +71,7 @@ class Difference:
         word = "smaller" if self.ratio < 1 else "larger"
         times = max(self.ratio, 1 / self.ratio) if self.ratio > 0 else math.inf
         if times >= 2:
-            return f"{times:.2g} times {word}"
+            return f"{times:.{1 if times < 10 else 0}f} times {word}"
         return f"{100 * abs(self.ratio - 1):.2g} % {word}"
 
     def test(self) -> str:

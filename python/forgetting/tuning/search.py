@@ -2,15 +2,12 @@
 
 Orders of an ARX model are chosen first, each at the best of a few speeds. Every rule is then run
 over a coarse grid of its factor; the grid is made finer around the best of those rules that go
-on. Other parameters, rates and priors are tried last, and each must be worth its place: a default
-stays unless something else is better by `MARGIN`. So must a rule without a bound of P, as the input
-may fall silent in the rest.
+on. Other parameters, rates and priors are tried last, where they are worth it (`worth.py`).
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 from forgetting._core import InvalidInput
 from forgetting.models.orders import Orders
@@ -18,13 +15,17 @@ from forgetting.tuning import grid
 from forgetting.tuning.candidate import NOISE, Candidate, tuned
 from forgetting.tuning.problem import Problem
 from forgetting.tuning.runner import Runner, Trial, best
+from forgetting.tuning.worth import (
+    MARGIN,
+    WITH_RATES,
+    preferred,
+    with_priors,
+    with_rates,
+    with_variants,
+)
 
-MARGIN = 0.005
-"""By how much of its error something must be better to take the place of a default."""
 GO_ON = 3
 """Rules of which the factor is found more closely."""
-WITH_RATES = 2
-"""Rules that are tried with each rate."""
 ROUNDS = 2
 """How often the grid is made finer."""
 
@@ -130,64 +131,6 @@ def search(
     ranked.insert(0, preferred(ranked))
     found = with_rates(runner, ranked, problem.y.shape[1]) if rates else ranked[0]
     return with_priors(runner, found, problem) if priors else found
-
-
-def preferred(ranked: Sequence[Trial]) -> Trial:
-    """The best rule, but by the margin rather one of which P stays bounded without excitation."""
-    bounded = [trial for trial in ranked if is_bounded(trial.candidate)]
-    near = bounded and ranked[0].error >= bounded[0].error * (1 - MARGIN)
-    return bounded[0] if near else ranked[0]
-
-
-def is_bounded(candidate: Candidate) -> bool:
-    """Whether the registry knows a bound of P from above for the rule."""
-    assert candidate.rule is not None
-    return bool(candidate.rule.about["bounded_above"] != "no")
-
-
-def worth(runner: Runner, plain: Trial, others: Sequence[Candidate], stage: str) -> Trial:
-    """The best of some candidates where it is better than the plain one by the margin."""
-    if not others:
-        return plain
-    found = best(runner.score(others, stage))
-    return found if found.error < plain.error * (1 - MARGIN) else plain
-
-
-def with_variants(runner: Runner, trial: Trial) -> Trial:
-    """With another value of one of its other parameters, where that is worth it."""
-    assert trial.candidate.rule is not None
-    others = [trial.candidate.with_rule(**values) for values in grid.variants(trial.candidate.rule)]
-    return worth(runner, trial, others, "parameters")
-
-
-def with_rates(runner: Runner, ranked: Sequence[Trial], outputs: int) -> Trial:
-    """The best of all: a rate with one of the best rules, where that is worth it."""
-    taking = list(dict.fromkeys(t.candidate for t in ranked if takes_a_rate(t.candidate)))
-    others = [
-        candidate.with_rule(forgetting_factor=rate)
-        for candidate in taking[:WITH_RATES]
-        for rate in grid.rates(ranked[0].error, outputs)
-    ]
-    return worth(runner, ranked[0], others, "rates")
-
-
-def takes_a_rate(candidate: Candidate) -> bool:
-    """Whether the rule has a forgetting factor."""
-    return candidate.rule is not None and tuned(candidate.rule.name) == "forgetting_factor"
-
-
-def with_priors(runner: Runner, trial: Trial, problem: Problem) -> Trial:
-    """With P before the first sample given, where that is worth it.
-
-    Tried only with rules whose other parameters are no numbers in units of the regressors: with P
-    given in these units, a threshold would be, too.
-    """
-    assert trial.candidate.rule is not None
-    if trial.candidate.rule.parameters and any(trial.candidate.rule.parameters.values()):
-        return trial
-    first = problem.phi[: runner.split.row]
-    others = [replace(trial.candidate, initial_covariance=prior) for prior in grid.priors(first)]
-    return worth(runner, trial, others, "priors")
 
 
 def expected(orders: int, rules: Sequence[str], rates: bool, priors: bool) -> int:
