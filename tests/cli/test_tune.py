@@ -102,7 +102,7 @@ def test_every_rule_rate_and_prior_is_said_so_that_it_runs(forgetting, battery, 
     for values in grid.variants(rule):
         rule = with_values(rule, **values)
     if rule.about["forgetting_factor"]:
-        rates = grid.rates(0.03, 1)
+        rates = grid.rates(1)
         rule = with_values(rule, forgetting_factor=rates[3 * len(name) % len(rates)])
     usage = Usage(str(battery), "V ~ 0 + lag(V) + I", (), (), True)
     lines = usage.lines(Candidate(rule, (2.5e-7, 1e8)))

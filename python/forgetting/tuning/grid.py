@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from itertools import product
 from typing import Any
 
@@ -113,26 +112,17 @@ def variants(rule: Rule) -> Iterator[dict[str, Any]]:
             yield from ({name: value} for value in values if value != rule.parameters[name])
 
 
-@dataclass(frozen=True)
-class Scaled:
-    """A parameter of a rate and its values, in units of a power of the error's root mean square."""
-
-    name: str
-    power: int
-    values: tuple[float, ...]
-
-
-RATES: dict[str, tuple[Scaled, ...]] = {
-    "prediction_error": (Scaled("sensitivity", 2, (1.0, 10.0)),),
-    "fortescue": (Scaled("memory", 0, (30.0, 100.0, 300.0)), Scaled("noise_variance", 2, (1.0,))),
-    "noise_power": (Scaled("ratio", 0, (1.5, 3.0)), Scaled("floor", 1, (1e-8,))),
-    "gradient": (Scaled("step_size", -2, (1e-3, 1e-2)),),
-    "exact_gradient": (Scaled("step_size", -2, (1e-3, 1e-2)),),
-    "rms_ratio": (Scaled("sensitivity", 0, (0.1, 1.0)),),
-    "f_test": (Scaled("sensitivity", 0, (0.1, 1.0)),),
-    "unity_zone": (Scaled("sensitivity", -2, (0.05, 0.5)),),
+RATES: dict[str, tuple[str, tuple[float, ...]]] = {
+    "prediction_error": ("sensitivity", (1.0, 10.0)),
+    "fortescue": ("memory", (30.0, 100.0, 300.0)),
+    "noise_power": ("ratio", (1.5, 3.0)),
+    "gradient": ("step_size", (1e-3, 1e-2)),
+    "exact_gradient": ("step_size", (1e-3, 1e-2)),
+    "rms_ratio": ("sensitivity", (0.1, 1.0)),
+    "f_test": ("sensitivity", (0.1, 1.0)),
+    "unity_zone": ("sensitivity", (0.05, 0.5)),
 }
-"""Rates that are tried, with what parameters; what is in units of the errors follows them."""
+"""Rates that are tried, with what values of which parameter: pure numbers where P is not given."""
 SMALLEST = (0.9, 0.5)
 """The least factor that a rate may take: memories of ten samples and of two."""
 WITHOUT_UNITS = ("f_test",)
@@ -141,18 +131,15 @@ NOT_TRIED = ("constant", "schedule", "function")
 """The factor itself, and what the user must know."""
 
 
-def rates(noise: float, outputs: int) -> list[Rate]:
-    """The rates to try, for one-step errors of this root mean square."""
+def rates(outputs: int) -> list[Rate]:
+    """The rates to try."""
     make: Callable[..., Rate] = AXES["rate"].make
-    found = []
-    for name, (main, *others) in RATES.items():
-        if not noise > 0 or (outputs > 1 and name not in WITHOUT_UNITS):
-            continue
-        fixed = {each.name: rounded(each.values[0] * noise**each.power) for each in others}
-        for value, least in product(main.values, SMALLEST):
-            tried = {main.name: rounded(value * noise**main.power), "smallest": least}
-            found.append(make(name, **tried, **fixed))
-    return found
+    return [
+        make(name, **{parameter: value}, smallest=least)
+        for name, (parameter, values) in RATES.items()
+        if outputs == 1 or name in WITHOUT_UNITS
+        for value, least in product(values, SMALLEST)
+    ]
 
 
 def priors(phi: Array) -> list[tuple[float, ...]]:

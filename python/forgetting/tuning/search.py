@@ -137,7 +137,7 @@ def expected(orders: int, rules: Sequence[str], rates: bool, priors: bool) -> in
     """About how many runs a search takes; for a progress bar."""
     grids = sum(grid.MEMORIES if tuned(rule) else 1 for rule in rules)
     more = GO_ON * (2 * ROUNDS + 3) + len(grid.PRIORS) * priors
-    values = sum(len(scaled[0].values) for scaled in grid.RATES.values())
+    values = sum(len(values) for _, values in grid.RATES.values())
     per_rule = values * len(grid.SMALLEST)
     return (
         (orders * len(grid.SPEEDS) if orders > 1 else 0)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from forgetting.choices import Rate
 from forgetting.tuning import grid
 from forgetting.tuning.candidate import Candidate, tuned
 from forgetting.tuning.problem import Problem
@@ -54,7 +55,7 @@ def with_rates(runner: Runner, ranked: Sequence[Trial], outputs: int) -> Trial:
     others = [
         candidate.with_rule(forgetting_factor=rate)
         for candidate in taking[:WITH_RATES]
-        for rate in grid.rates(ranked[0].error, outputs)
+        for rate in grid.rates(outputs)
     ]
     return worth(runner, ranked[0], others, "rates")
 
@@ -67,11 +68,12 @@ def takes_a_rate(candidate: Candidate) -> bool:
 def with_priors(runner: Runner, trial: Trial, problem: Problem) -> Trial:
     """With P before the first sample given, where that is worth it.
 
-    Tried only with rules whose other parameters are no numbers in units of the regressors: with P
-    given in these units, a threshold would be, too.
+    Tried only with rules whose parameters are no numbers in units of the columns: with P given in
+    these units, a threshold would be, too, and so would what a rate judges errors by.
     """
-    assert trial.candidate.rule is not None
-    if trial.candidate.rule.parameters and any(trial.candidate.rule.parameters.values()):
+    rule = trial.candidate.rule
+    assert rule is not None
+    if any(rule.parameters.values()) or isinstance(rule.forgetting_factor, Rate):
         return trial
     first = problem.phi[: runner.split.row]
     others = [replace(trial.candidate, initial_covariance=prior) for prior in grid.priors(first)]
