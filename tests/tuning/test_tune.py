@@ -165,7 +165,7 @@ def test_code_makes_the_same_rule(name):
     plain = grid.plain_rule(name)
     assert eval(code(plain)) == plain
     if plain.about["forgetting_factor"]:
-        for rate in grid.rates(0.3, 1):
+        for rate in grid.rates(1):
             rule = fg.rule(name, forgetting_factor=rate)
             assert eval(code(rule)) == rule
 
