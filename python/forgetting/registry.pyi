@@ -423,7 +423,7 @@ class DeadZone(Gate):
     - An error that is small by chance holds a sample that would have told much, so that hold
       learns later than it could. Freeze does not.
     - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
-      until five have told it, every sample passes.
+      until five after 2n samples have told it, every sample passes.
     - Cost: O(p m). State: none.
     - Use it against drift in quiet times, and where the parameters change seldom: `freeze` then
       averages on, and forgets when the model no longer fits.
@@ -603,7 +603,7 @@ class ExactGradient(Rate):
       averaged.
     - Should Z or Ψ leave the range of the number type, where P has wound up, both start again at 0.
     - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
-      until five have told it, errors count as 0.
+      until five after 2n samples have told it, errors count as 0.
     - Cost: O(n³/6 + p n²), for the elements of P. State: Z, Ψ and the next λ, n² + m n + 1 numbers.
     - Use it for slow drift when n is small; `gradient` costs nothing beside.
 
@@ -758,7 +758,7 @@ class Fortescue(Rate):
     - e is whitened by Γ and clipped by the weighting, so that λ does not depend on the units of y:
       σ² is the variance of the whitened noise, 1 where Γ is the noise covariance.
     - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
-      until five have told it, errors count as 0.
+      until five after 2n samples have told it, errors count as 0.
     - Cost: O(p n²/2 + p² n). State: the next λ.
     - Use it when the noise variance is known and constant; else `noise_power`.
 
@@ -861,7 +861,7 @@ class Gradient(Rate):
     - e is whitened by Γ and clipped by the weighting: λ does not depend on the units of y. ‖e‖² is
       the sum over the p rows, averaged over targets.
     - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
-      until five have told it, errors count as 0.
+      until five after 2n samples have told it, errors count as 0.
     - Cost: O(1). State: six numbers.
     - Use it for slow, steady drift in noise whose variance is stationary.
 
@@ -904,7 +904,7 @@ class Huber(Weighting):
       constant that solves Σ w ē = 0 has 95 % of the efficiency of least squares in Gaussian noise;
       the recursion, of which the gain is 1/Σ w, has 92.3 %.
     - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
-      until five have told it, w = 1.
+      until five after 2n samples have told it, w = 1.
     - Cost: O(p m). State: none.
     - Use it when some samples are gross errors. One in φ is not recognized.
 
@@ -1127,7 +1127,7 @@ class NoisePower(Rate):
     - e is whitened by Γ and clipped by the weighting: λ does not depend on the units of y. ‖e‖² is
       the sum over the p rows, averaged over targets.
     - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
-      until five have told it, errors count as 0.
+      until five after 2n samples have told it, errors count as 0.
     - Cost: O(p n²/2) for tr S. State: three averages and the next λ.
     - Use it when the noise is unknown or its variance changes slowly.
 
@@ -1228,7 +1228,7 @@ class PredictionError(Rate):
     - λ_k is in (1 − 1/p, 1] without the clip, and is 1 when the error is 0: it is `largest` < 1
       that bounds the information.
     - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
-      until five have told it, errors count as 0.
+      until five after 2n samples have told it, errors count as 0.
     - Cost: O(p n²/2) for tr S. State: none.
     - Use it when jumps show in the error at once and the noise is small beside them.
 
@@ -1478,7 +1478,7 @@ class StudentT(Weighting):
       sample more than its Γ says.
     - Rates see the clipped error w ē.
     - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
-      until five have told it, w = 1.
+      until five after 2n samples have told it, w = 1.
     - Cost: O(p m). State: none.
     - Use it when gross errors are so large that even a clipped one disturbs; `huber` loses less
       when there are none. After a jump of θ it takes longer to believe.
@@ -1555,7 +1555,7 @@ class UnityZone(Rate):
     - e is whitened by Γ and clipped by the weighting: λ does not depend on the units of y. ‖e‖² is
       the sum over the p rows, averaged over targets.
     - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
-      until five have told it, errors count as 0.
+      until five after 2n samples have told it, errors count as 0.
     - Cost: O(1). State: none.
     - Use it for parameters that are constant but for jumps.
 

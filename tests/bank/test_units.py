@@ -208,3 +208,40 @@ def test_robust_weightings_need_no_gamma():
     for name in ("huber", "student_t"):
         assert rms[name, False] < 1.5 * rms[name, True]
         assert rms[name, False] < 0.3 * rms["equal", False]
+
+
+@pytest.mark.parametrize("mixer", ["mlpol", "best", "dynamic_model_averaging"])
+def test_units_of_several_outputs_change_no_prediction_of_a_bank(mixer):
+    phi, y = record()
+    other = record(seed=5)[1]
+    both, units = np.column_stack([y, 3.0 + 20.0 * other]), np.array([1e5, 1e-4])
+    one, two = (fg.Bank(4, targets=2, mixer=mixer) for _ in range(2))
+    run = one.run(phi, both, outputs=("error", "weights", "variance"))
+    scaled = two.run(phi * [1e6, 1e-6, 1e3, 10.0], both * units, outputs=("error", "weights"))
+    assert moved(run.error, scaled.error / units) < 1e-6
+    np.testing.assert_allclose(run.weights, scaled.weights, atol=1e-6)
+    np.testing.assert_allclose(
+        one.covariance, two.covariance * np.outer(u := [1e6, 1e-6, 1e3, 10.0], u), rtol=1e-5
+    )
+
+
+@pytest.mark.parametrize(("size", "most"), [(30.0, 1.5), (1000.0, 2.0)])
+def test_a_weighting_keeps_gross_errors_from_choosing_the_members(size, most):
+    """One sample of twenty is wrong, by so many standard deviations."""
+    off: dict[str, list[float]] = {}
+    for seed in range(5):
+        random = np.random.default_rng(seed)
+        phi = random.normal(size=(3000, 3))
+        theta = np.cumsum(0.03 * random.normal(size=(3000, 3)), axis=0)
+        clean = (phi * theta).sum(axis=1) + random.normal(size=3000)
+        wrong = np.where(random.random(3000) < 0.05, size, 0.0) * random.normal(size=3000)
+        for name, weighting, y in (
+            ("clean", "equal", clean),
+            ("huber", "huber", clean + wrong),
+            ("student_t", "student_t", clean + wrong),
+        ):
+            run = fg.Bank(3, weighting=weighting).run(phi, 1e-3 * y)
+            error = np.linalg.norm(1e3 * run.theta[500:] - theta[500:], axis=1)
+            off.setdefault(name, []).append(float(np.median(error)))
+    for name in ("huber", "student_t"):
+        assert np.mean(off[name]) < most * np.mean(off["clean"])

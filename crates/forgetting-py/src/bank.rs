@@ -26,7 +26,7 @@ use pyo3::types::{PyBytes, PyDict, PyType};
 /// parameters : int
 ///     Number n of parameters of each target.
 /// members : sequence of str or Rule, optional
-///     A rule each; random walks of eight speeds if not given.
+///     A rule each; random walks of eight speeds if not given, of the six slowest with a weighting.
 /// mixer : str or Mixer, default "mlpol"
 ///     How members are weighed; see `forgetting.mixers()`.
 /// weighting, gate : optional

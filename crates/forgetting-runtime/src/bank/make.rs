@@ -32,6 +32,8 @@ pub struct BankSettings<'a> {
     pub mixer: Option<Choice>,
 }
 
+/// Process noise up to which a default member is one where samples are weighted.
+const SLOW: f64 = 1.0;
 /// The most members of a bank.
 const MOST: usize = 1024;
 
@@ -87,6 +89,9 @@ fn named<T: Number>(
 }
 
 /// The default members, with the weighting, the gate and the prior of `common`.
+///
+/// With a weighting there is none that takes its parameters from one sample alone: what a weight can
+/// do there is little, as P is large beside any noise.
 fn defaults<T: Number>(common: &Settings<'_>) -> Result<Vec<AnyEstimator<T>>, Error> {
     let plain =
         common.weighting.is_none() && common.gate.is_none() && common.initial_covariance.is_none();
@@ -98,7 +103,9 @@ fn defaults<T: Number>(common: &Settings<'_>) -> Result<Vec<AnyEstimator<T>>, Er
         rule: Choice::named("random_walk").with("process_noise", *noise).with("bound", DIFFUSE),
         forgetting_factor: ForgettingFactor::None,
     };
-    let members: Vec<_> = forgetting::bank::DEFAULT_NOISE.iter().map(walk).collect();
+    let slow = |noise: &&f64| common.weighting.is_none() || **noise <= SLOW;
+    let noises = forgetting::bank::DEFAULT_NOISE.iter().filter(slow);
+    let members: Vec<_> = noises.map(walk).collect();
     named(common, &members)
 }
 

@@ -114,7 +114,8 @@ impl<T: Kernels> Bank<T> {
             windup: lanes.windup(k, mixture.weights()),
         };
         let forecasts = Forecasts { errors, mixed: &[error], leverages, awake: &buffers.awake };
-        mixture.learn((mixer, &mut state.mixer), n, Some((&forecasts, leverage)));
+        mixture.note(&forecasts, leverage);
+        mixture.learn((mixer, &mut state.mixer), n, Some(&forecasts));
         if let Some(theta) = kept.theta.get_mut(k * n..(k + 1) * n) {
             lanes.theta_after(k, mixture.weights(), theta);
         }

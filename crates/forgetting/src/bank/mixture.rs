@@ -3,7 +3,7 @@
 use crate::memory::state::{State, Visitor, MOST_SAMPLES};
 use crate::memory::Dynamic;
 use crate::mixers::{AnyMixer, AnyMixerState, Forecasts, Mixer};
-use crate::sample::{cholesky, Noise};
+use crate::sample::{cholesky, Noise, NoiseVariance};
 use alloc::vec::Vec;
 use forgetting_kernels::kernel::functions::add_scaled;
 use forgetting_kernels::Kernels;
@@ -12,6 +12,8 @@ use forgetting_kernels::Kernels;
 const WARM_UP: u64 = 3;
 /// Samples over which the noise variance and the members' parts are averaged.
 const MEMORY: f64 = 1000.0;
+/// Standard deviations at which the errors of weighted members are clipped for the mixer.
+const CLIP: f64 = 3.0;
 
 /// w, and how the members have been doing.
 #[derive(Clone, Debug)]
@@ -21,18 +23,25 @@ pub(super) struct Mixture<T> {
     parts: Vec<T>,
     /// of the whitened errors of the mixture, each over 1 + s
     noise_variance: T,
+    /// the same of each target, where there are several
+    target_variances: Vec<T>,
+    /// of each target, where members trust some samples less than others: from what error on none tells
+    /// more of a member
+    clips: Vec<NoiseVariance<T>>,
     /// samples used
     samples: u64,
 }
 
 impl<T: Kernels> Mixture<T> {
     /// All alike.
-    pub fn new(count: usize) -> Self {
+    pub fn new(count: usize, targets: usize, is_weighted: bool) -> Self {
         let equal = T::ONE / T::from_f64(count as f64);
         Self {
             weights: alloc::vec![equal; count],
             parts: alloc::vec![T::ZERO; count],
             noise_variance: T::ZERO,
+            target_variances: alloc::vec![T::ZERO; if targets > 1 { targets } else { 0 }],
+            clips: alloc::vec![NoiseVariance::UNKNOWN; if is_weighted { targets } else { 0 }],
             samples: 0,
         }
     }
@@ -122,27 +131,23 @@ impl<T: Kernels> Mixture<T> {
         those().filter(|&i| share(i) > T::ZERO).fold(T::ZERO, |sum, i| sum + share(i) * number(i))
     }
 
-    /// The mixer learns from a sample, if it was used, of which the mixture had this leverage, and weighs
-    /// the members of n `parameters`.
+    /// The mixer learns from a sample, if it was used, and weighs the members of n `parameters`.
     #[inline]
     pub fn learn(
         &mut self,
         (mixer, remembered): (&AnyMixer<Dynamic<T>>, &mut AnyMixerState<Dynamic<T>>),
         parameters: usize,
-        used: Option<(&Forecasts<'_, T>, T)>,
+        used: Option<&Forecasts<'_, T>>,
     ) {
-        if let Some((forecasts, leverage)) = used {
-            self.note(forecasts, leverage);
-            if self.samples > WARM_UP * parameters as u64 {
-                mixer.learn(remembered, forecasts);
-            }
+        if let Some(forecasts) = used.filter(|_| self.samples > WARM_UP * parameters as u64) {
+            mixer.learn(remembered, forecasts);
         }
         self.weigh(|weights| mixer.weigh(remembered, weights));
     }
 
     /// Takes note of a sample that was used, `leverage` being that of the mixture.
     #[inline]
-    fn note(&mut self, forecasts: &Forecasts<'_, T>, leverage: T) {
+    pub fn note(&mut self, forecasts: &Forecasts<'_, T>, leverage: T) {
         self.samples += 1;
         let share = T::ONE / T::from_f64(self.samples as f64).min(T::from_f64(MEMORY));
         let count = self.parts.len();
@@ -159,6 +164,61 @@ impl<T: Kernels> Mixture<T> {
         }
         let variance = (T::ONE + leverage) * T::from_f64(forecasts.mixed.len() as f64);
         self.noise_variance += share * ((squared / variance).min(T::CEILING) - self.noise_variance);
+        let targets = self.target_variances.len();
+        for (t, own) in self.target_variances.iter_mut().enumerate() {
+            let errors = forecasts.mixed.iter().skip(t).step_by(targets);
+            let squared = errors.fold(T::ZERO, |sum, &e| sum + e * e) * T::from_f64(targets as f64);
+            *own += share * ((squared / variance).min(T::CEILING) - *own);
+        }
+    }
+
+    /// Clips the errors of all members at three standard deviations of what the mixture usually errs by,
+    /// where members are weighted: one gross error must not decide which of them is believed from then
+    /// on. The mixture of clipped errors takes the place of its own.
+    pub fn clip(
+        &mut self,
+        (errors, mixed): (&mut [T], &mut [T]),
+        awake: &[bool],
+        parameters: usize,
+    ) {
+        let (targets, width) = (self.clips.len(), mixed.len());
+        for t in 0..targets {
+            let rows = width / targets;
+            let own = (t..width).step_by(targets);
+            let squared = own.clone().fold(T::ZERO, |sum, j| sum + mixed[j] * mixed[j]);
+            if let Some(variance) = self.clips[t].known() {
+                let limit = T::from_f64(CLIP) * variance.sqrt();
+                for j in own {
+                    for e in errors.iter_mut().skip(j).step_by(width) {
+                        *e = e.max(-limit).min(limit);
+                    }
+                    mixed[j] = self.mean_of(&|i| errors[i * width + j], awake);
+                }
+            }
+            if NoiseVariance::<T>::is_settled(self.samples, parameters) {
+                self.clips[t].learn(squared / T::from_f64(rows as f64), rows, T::ZERO);
+            }
+        }
+    }
+
+    /// The variance of the noise of target t.
+    pub fn target_variance(&self, t: usize) -> T {
+        self.target_variances.get(t).copied().unwrap_or(self.noise_variance)
+    }
+
+    /// The errors of several targets, each over the standard deviation of its noise so far: members are
+    /// weighed by all of them alike, whatever their units.
+    pub fn in_deviations(&self, errors: &mut [T], mixed: &mut [T]) {
+        let targets = self.target_variances.len();
+        for (t, &variance) in self.target_variances.iter().enumerate() {
+            let deviation = variance.sqrt();
+            // without an error so far all errors of the target are 0
+            let scale = if deviation > T::ZERO { T::ONE / deviation } else { T::ZERO };
+            for e in errors.iter_mut().skip(t).step_by(targets) {
+                *e *= scale;
+            }
+            mixed.iter_mut().skip(t).step_by(targets).for_each(|e| *e *= scale);
+        }
     }
 
     /// Takes the weights that `write` writes, in proportion.
@@ -217,15 +277,19 @@ impl<T: Kernels> State<T> for Mixture<T> {
         visitor.reals(&mut self.weights);
         visitor.reals(&mut self.parts);
         visitor.reals(core::slice::from_mut(&mut self.noise_variance));
+        visitor.reals(&mut self.target_variances);
+        self.clips.iter_mut().for_each(|clip| clip.visit(visitor));
         visitor.whole(&mut self.samples);
     }
 
     fn is_sound(&self) -> bool {
         let sum = self.weights.iter().fold(T::ZERO, |sum, &w| sum + w);
-        let numbers = self.weights.iter().chain(&self.parts).chain([&self.noise_variance]);
+        let variances = self.target_variances.iter().chain([&self.noise_variance]);
+        let numbers = self.weights.iter().chain(&self.parts).chain(variances);
         numbers.into_iter().all(|x| *x >= T::ZERO && x.is_finite())
             && (sum - T::ONE).abs() <= T::from_f64(1e-3)
             && self.samples <= MOST_SAMPLES
+            && self.clips.iter().all(State::is_sound)
     }
 }
 

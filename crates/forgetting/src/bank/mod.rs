@@ -29,6 +29,7 @@ use crate::memory::{Aligned, Dynamic, Memory};
 use crate::mixers::{AnyMixer, AnyMixerState, Mixer};
 use crate::sample::{Answer, Noise, Skip};
 use crate::units::Units;
+use crate::weightings::Weighting;
 use alloc::vec::Vec;
 use forgetting_kernels::Kernels;
 use group::Group;
@@ -60,6 +61,8 @@ pub struct Bank<T: Kernels> {
     memory: Dynamic<T>,
     /// whether the units of φ are those of the data
     follows_data: bool,
+    /// whether members trust some samples less than others
+    is_weighted: bool,
     state: BankState<T>,
     buffers: Buffers<T>,
 }
@@ -140,6 +143,7 @@ impl<T: Kernels> Bank<T> {
         follows_data: bool,
     ) -> Result<Self, Error> {
         let memory = members::common_memory(&members)?;
+        let is_weighted = members.iter().any(|member| !member.weighting().is_equal());
         members.iter_mut().for_each(|member| member.estimate_noise(follows_data));
         let of_members = Dynamic::new(members.len(), 1, 1)?;
         let (count, width) = (members.len(), memory.rows() * memory.targets());
@@ -158,25 +162,25 @@ impl<T: Kernels> Bank<T> {
         };
         let state = BankState {
             mixer: mixer.start(of_members),
-            mixture: Mixture::new(count),
+            mixture: Mixture::new(count, memory.targets(), is_weighted),
             units: follows_data.then(|| Units::new(memory)),
             members: Group::new(members),
         };
-        let mut bank = Self { mixer, memory, follows_data, state, buffers };
+        let mut bank = Self { mixer, memory, follows_data, is_weighted, state, buffers };
         bank.reset();
         Ok(bank)
     }
 
     /// Back to the prior, as if no sample had been seen.
     pub fn reset(&mut self) {
-        let Self { mixer, memory, follows_data, state, .. } = self;
+        let Self { mixer, memory, follows_data, is_weighted, state, .. } = self;
         let count = state.members.count();
         state.members.each().iter_mut().for_each(AnyEstimator::reset);
         // as many were allowed before
         if let Ok(of_members) = Dynamic::new(count, 1, 1) {
             state.mixer = mixer.start(of_members);
         }
-        state.mixture = Mixture::new(count);
+        state.mixture = Mixture::new(count, memory.targets(), *is_weighted);
         state.units = follows_data.then(|| Units::new(*memory));
         self.express();
     }

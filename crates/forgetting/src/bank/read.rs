@@ -57,12 +57,10 @@ impl<T: Kernels> Bank<T> {
     /// P of the mixture as n x n numbers, with what the members disagree about. O(K n³).
     pub fn covariance(&self, dense: &mut [T]) {
         let memory = self.memory;
-        let (n, m) = (memory.parameters(), memory.targets());
+        let n = memory.parameters();
         let mut own = alloc::vec![T::ZERO; n * n];
         let mut distance = alloc::vec![T::ZERO; n];
         dense.fill(T::ZERO);
-        let per_target = self.noise_variance() * T::from_f64(m as f64);
-        let disagree = per_target > T::ZERO && self.state.members.count() > 1;
         self.state.members.visit_each(|i, member| {
             let weight = self.weights()[i];
             if !(weight > T::ZERO) {
@@ -77,7 +75,7 @@ impl<T: Kernels> Bank<T> {
                 }
                 let mixed = &self.theta()[t * n..(t + 1) * n];
                 distance.iter_mut().zip(mixed).for_each(|(own, &mixed)| *own -= mixed);
-                if disagree {
+                if let Some(per_target) = self.disagreement_in(t) {
                     add_square(dense, weight / per_target, &distance);
                 }
             }
@@ -89,8 +87,6 @@ impl<T: Kernels> Bank<T> {
         let (n, m) = (self.memory.parameters(), self.memory.targets());
         let mut own = alloc::vec![T::ZERO; n];
         variances.fill(T::ZERO);
-        let per_target = self.noise_variance() * T::from_f64(m as f64);
-        let disagree = per_target > T::ZERO && self.state.members.count() > 1;
         self.state.members.visit_each(|k, member| {
             let weight = self.weights()[k];
             if !(weight > T::ZERO) {
@@ -100,12 +96,21 @@ impl<T: Kernels> Bank<T> {
             for (i, (sum, &p)) in variances.iter_mut().zip(&own).enumerate() {
                 let unit = self.reciprocal_units().map_or(T::ONE, |units| units[i]);
                 *sum += weight * p * unit * unit;
-                for t in (0..m).filter(|_| disagree) {
+                for t in 0..m {
+                    let Some(per_target) = self.disagreement_in(t) else { continue };
                     let apart = member.theta()[t * n + i] * unit - self.theta()[t * n + i];
                     *sum += weight / per_target * apart * apart;
                 }
             }
         });
+    }
+
+    /// What squares of distances between members are divided by for target t, to be in units of the
+    /// noise variance and averaged over targets; nothing where members cannot disagree.
+    fn disagreement_in(&self, t: usize) -> Option<T> {
+        let targets = T::from_f64(self.memory.targets() as f64);
+        let per_target = self.state.mixture.target_variance(t) * targets;
+        (per_target > T::ZERO && self.state.members.count() > 1).then_some(per_target)
     }
 
     /// P of a member in the units of the user.

@@ -98,14 +98,16 @@ impl<T: Kernels> Bank<T> {
     /// The mixer learns from a sample that was used, of which the mixture had this leverage.
     pub(super) fn learn(&mut self, leverage: Option<T>) {
         let Self { mixer, memory, state, buffers, .. } = self;
-        let forecasts = Forecasts {
-            errors: &buffers.whitened,
-            mixed: &buffers.mixed,
-            leverages: &buffers.leverages,
-            awake: &buffers.awake,
-        };
-        let used = leverage.map(|leverage| (&forecasts, leverage));
-        state.mixture.learn((mixer, &mut state.mixer), memory.parameters(), used);
+        let (mixture, remembered) = (&mut state.mixture, (&*mixer, &mut state.mixer));
+        if let Some(leverage) = leverage {
+            let Buffers { whitened, mixed, awake, .. } = buffers;
+            mixture.clip((whitened, mixed), awake, memory.parameters());
+            mixture.note(&buffers.forecasts(), leverage);
+            let Buffers { whitened, mixed, .. } = buffers;
+            mixture.in_deviations(whitened, mixed);
+        }
+        let used = leverage.is_some().then(|| buffers.forecasts());
+        mixture.learn(remembered, memory.parameters(), used.as_ref());
     }
 
     /// Renews the units if that is due, and takes note of θ.
@@ -135,6 +137,14 @@ impl<T: Kernels> Bank<T> {
         if let Some(units) = &self.state.units {
             units.express(theta);
         }
+    }
+}
+
+impl<T: Kernels> Buffers<T> {
+    /// What the mixer is shown.
+    fn forecasts(&self) -> Forecasts<'_, T> {
+        let Self { whitened, mixed, leverages, awake, .. } = self;
+        Forecasts { errors: whitened, mixed, leverages, awake }
     }
 }
 

@@ -83,13 +83,20 @@ impl<T: Real> Statistics<T> {
         }
     }
 
-    /// Has errors judged by this estimate of their variance; returns it with what the sample adds.
+    /// Has errors judged by this estimate of their variance; returns it with what the sample adds, for so
+    /// many `parameters`.
     #[inline]
-    pub fn judge_by(&mut self, mut estimate: NoiseVariance<T>) -> NoiseVariance<T> {
+    pub fn judge_by(
+        &mut self,
+        mut estimate: NoiseVariance<T>,
+        parameters: usize,
+    ) -> NoiseVariance<T> {
         self.noise_variance = estimate.known();
         let rows = T::from_f64(self.rows as f64);
         let (squared, leverage) = (self.squared_error / rows, self.leverage / rows);
-        estimate.learn(squared, self.rows * self.targets, leverage);
+        if NoiseVariance::<T>::is_settled(self.samples, parameters) {
+            estimate.learn(squared, self.rows * self.targets, leverage);
+        }
         estimate
     }
 

@@ -131,7 +131,8 @@ where
         let needs = rate.needs().max(weighting.needs()).max(gate.needs()).max(of_noise);
         let free = (buffer.remaining.as_mut(), buffer.noise.as_mut());
         statistics.compute(needs, factor, &sample, work, free);
-        let noise_variance = noise_variance.map(|estimate| statistics.judge_by(estimate));
+        let n = memory.parameters();
+        let noise_variance = noise_variance.map(|estimate| statistics.judge_by(estimate, n));
         let gate = statistics.ask(gate, &sample, factor)?;
         if gate != Answer::Hold {
             statistics.weigh(weighting, &mut sample, buffer.clipped.as_mut(), factor)?;

@@ -22,7 +22,7 @@
 //! - An error that is small by chance holds a sample that would have told much, so that hold
 //!   learns later than it could. Freeze does not.
 //! - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
-//!   until five have told it, every sample passes.
+//!   until five after 2n samples have told it, every sample passes.
 //! - Cost: O(p m). State: none.
 //! - Use it against drift in quiet times, and where the parameters change seldom: `freeze` then
 //!   averages on, and forgets when the model no longer fits.

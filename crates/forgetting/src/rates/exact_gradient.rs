@@ -19,7 +19,7 @@
 //!   averaged.
 //! - Should Z or Ψ leave the range of the number type, where P has wound up, both start again at 0.
 //! - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
-//!   until five have told it, errors count as 0.
+//!   until five after 2n samples have told it, errors count as 0.
 //! - Cost: O(n³/6 + p n²), for the elements of P. State: Z, Ψ and the next λ, n² + m n + 1 numbers.
 //! - Use it for slow drift when n is small; `gradient` costs nothing beside.
 //!

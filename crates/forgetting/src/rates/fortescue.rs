@@ -20,7 +20,7 @@
 //! - e is whitened by Γ and clipped by the weighting, so that λ does not depend on the units of y:
 //!   σ² is the variance of the whitened noise, 1 where Γ is the noise covariance.
 //! - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
-//!   until five have told it, errors count as 0.
+//!   until five after 2n samples have told it, errors count as 0.
 //! - Cost: O(p n²/2 + p² n). State: the next λ.
 //! - Use it when the noise variance is known and constant; else `noise_power`.
 //!

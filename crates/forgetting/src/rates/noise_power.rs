@@ -24,7 +24,7 @@
 //! - e is whitened by Γ and clipped by the weighting: λ does not depend on the units of y. ‖e‖² is
 //!   the sum over the p rows, averaged over targets.
 //! - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
-//!   until five have told it, errors count as 0.
+//!   until five after 2n samples have told it, errors count as 0.
 //! - Cost: O(p n²/2) for tr S. State: three averages and the next λ.
 //! - Use it when the noise is unknown or its variance changes slowly.
 //!

@@ -19,7 +19,7 @@
 //! - λ_k is in (1 − 1/p, 1] without the clip, and is 1 when the error is 0: it is `largest` < 1
 //!   that bounds the information.
 //! - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
-//!   until five have told it, errors count as 0.
+//!   until five after 2n samples have told it, errors count as 0.
 //! - Cost: O(p n²/2) for tr S. State: none.
 //! - Use it when jumps show in the error at once and the noise is small beside them.
 //!

@@ -18,7 +18,7 @@
 //! - e is whitened by Γ and clipped by the weighting: λ does not depend on the units of y. ‖e‖² is
 //!   the sum over the p rows, averaged over targets.
 //! - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
-//!   until five have told it, errors count as 0.
+//!   until five after 2n samples have told it, errors count as 0.
 //! - Cost: O(1). State: none.
 //! - Use it for parameters that are constant but for jumps.
 //!

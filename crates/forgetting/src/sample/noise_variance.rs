@@ -14,16 +14,19 @@ const CLIP: f64 = 2.0;
 const CONSISTENT: f64 = 1.086;
 /// The most errors that the estimate remembers.
 const MEMORY: f64 = 100.0;
-/// The least that a first error tells of the noise, and not of θ.
+/// The least that an error tells of the noise: where the leverage is always large, the prior of the
+/// estimator is, and not what is unknown of θ.
 const LEAST: f64 = 0.1;
+/// Samples a parameter of which the errors tell more of θ.
+const WARM_UP: u64 = 2;
 
 /// Follows the variance of the noise.
 ///
 /// ```text
-/// w = 1 / (1 + s)                   s the mean leverage of the rows: what the error tells of the
-/// z = w · mean of e²                noise, and not of θ; e of all rows and targets
-/// v = median of the first z / 0.455
+/// z = mean of e² / (1 + min(s, 1))  s the mean leverage of the rows, e of all rows and targets
+/// v = median of the first z / 0.455, after 2n samples
 /// v ← v + g (κ min(z, 2² v) − v)    g = w · max(2/(c + 2), 1/100),  c ← c + w
+/// w = max(1/(1 + s), 1/10)          what the error tells of the noise, and not of θ
 /// ```
 ///
 /// An outlier counts as an error of two standard deviations, so that one among twenty samples raises
@@ -50,16 +53,21 @@ impl<T: Real> NoiseVariance<T> {
     /// Takes note of the mean `squared_error` of `numbers` errors, predicted with this mean `leverage`.
     #[inline]
     pub fn learn(&mut self, squared_error: T, numbers: usize, leverage: T) {
-        let share = T::ONE / (T::ONE + leverage);
-        let squared = squared_error * share;
+        let squared = squared_error / (T::ONE + leverage.min(T::ONE));
         if !(squared > T::ZERO && squared < T::CEILING) {
             return;
         }
+        let share = (T::ONE / (T::ONE + leverage)).max(T::from_f64(LEAST));
         match self.known() {
             Some(variance) => self.follow(variance, squared, numbers, share),
-            None if share >= T::from_f64(LEAST) => self.start(squared),
-            None => {}
+            None => self.start(squared),
         }
+    }
+
+    /// Whether errors after so many `samples` tell of the noise.
+    #[inline]
+    pub fn is_settled(samples: u64, parameters: usize) -> bool {
+        samples >= WARM_UP * parameters as u64
     }
 
     fn follow(&mut self, variance: T, squared: T, numbers: usize, share: T) {
@@ -141,10 +149,10 @@ mod tests {
     #[test]
     fn uncertain_predictions_tell_little() {
         let mut noise = NoiseVariance::<f64>::UNKNOWN;
-        for _ in 0..1000 {
-            noise.learn(1e10, 1, 1e6);
-        }
-        assert_eq!(noise.known(), None);
+        (0..200).for_each(|_| noise.learn(1.0, 1, 0.0));
+        let before = noise.known().unwrap();
+        (0..10).for_each(|_| noise.learn(1e10, 1, 1e6));
+        assert!(noise.known().unwrap() < 1.04 * before);
         for _ in 0..300 {
             noise.learn(1.0, 1, 0.0);
         }

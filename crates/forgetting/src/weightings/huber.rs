@@ -21,7 +21,7 @@
 //!   constant that solves Σ w ē = 0 has 95 % of the efficiency of least squares in Gaussian noise;
 //!   the recursion, of which the gain is 1/Σ w, has 92.3 %.
 //! - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
-//!   until five have told it, w = 1.
+//!   until five after 2n samples have told it, w = 1.
 //! - Cost: O(p m). State: none.
 //! - Use it when some samples are gross errors. One in φ is not recognized.
 //!

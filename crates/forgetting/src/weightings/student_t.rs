@@ -16,7 +16,7 @@
 //!   sample more than its Γ says.
 //! - Rates see the clipped error w ē.
 //! - Where neither Γ nor P₀ is given, Γ here is the variance of the noise, estimated from the errors;
-//!   until five have told it, w = 1.
+//!   until five after 2n samples have told it, w = 1.
 //! - Cost: O(p m). State: none.
 //! - Use it when gross errors are so large that even a clipped one disturbs; `huber` loses less
 //!   when there are none. After a jump of θ it takes longer to believe.
