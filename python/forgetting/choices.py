@@ -19,66 +19,16 @@ from __future__ import annotations
 import copy
 import inspect
 from collections.abc import Callable, Mapping
-from numbers import Real
-from typing import Any, ClassVar, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from . import _core
+from .choice import Choice, plain
 from .words.duration import seconds_of
+from .words.suggestion import close
 
 ForgettingFactor: TypeAlias = "float | Rate | str | Callable[[_core.Evidence], float]"
-
-
-class Choice:
-    """A name of a registry and the values of its parameters."""
-
-    about: ClassVar[Mapping[str, Any]]
-    name: ClassVar[str]
-    parameters: dict[str, Any]
-
-    def __init__(self, *arguments: Any, **named: Any) -> None:
-        bound = inspect.signature(type(self)).bind(*arguments, **named)
-        if {"forgetting_factor", "half_life"} <= bound.arguments.keys():
-            raise _core.InvalidInput("forgetting_factor and half_life are given: allowed is one")
-        bound.apply_defaults()
-        values = dict(bound.arguments)
-        for entry in self.about["parameters"]:
-            values[entry["name"]] = _plain(values[entry["name"]], entry["kind"])
-        self._take(values)
-
-    def _take(self, values: dict[str, Any]) -> None:
-        self.parameters = values
-
-    def arguments(self) -> dict[str, Any]:
-        """What its constructor takes to make the same again."""
-        return self.parameters
-
-    def __repr__(self) -> str:
-        given = ", ".join(f"{name}={value!r}" for name, value in self.arguments().items())
-        return f"{type(self).__name__}({given})"
-
-    def __eq__(self, other: object) -> bool:
-        return type(self) is type(other) and repr(self) == repr(other)
-
-    def __hash__(self) -> int:
-        return hash(repr(self))
-
-
-def _plain(value: Any, kind: str) -> Any:
-    """The value as Python's own numbers and lists, so that choices print and compare alike.
-
-    A value that does not fit is left for the core to refuse.
-    """
-    if kind in ("matrix", "list") and value is not None and not isinstance(value, str):
-        try:
-            return _core.numbers(kind, value).tolist()
-        except _core.InvalidInput:
-            return value
-    if isinstance(value, Real) and not isinstance(value, bool):
-        number = float(value)
-        return int(number) if kind == "whole" and number.is_integer() else number
-    return value
 
 
 class Rule(Choice):
@@ -120,6 +70,10 @@ class Rule(Choice):
         if not self.about["forgetting_factor"] or self.forgetting_factor is None:
             return self.parameters
         return {"forgetting_factor": self.forgetting_factor, **self.parameters}
+
+    def _all_arguments(self) -> dict[str, Any]:
+        rate = {"forgetting_factor": self.forgetting_factor}
+        return {**(rate if self.about["forgetting_factor"] else {}), **self.parameters}
 
 
 class Rate(Choice):
@@ -169,7 +123,7 @@ def _as_rate(given: Any) -> Any:
         return AXES["rate"].make("function", function=given)
     if isinstance(given, Rate) and given.name == "constant":
         return given.parameters["forgetting_factor"]
-    return _plain(given, "real")
+    return plain(given, "real")
 
 
 def _signature(about: Mapping[str, Any]) -> inspect.Signature:
@@ -233,8 +187,8 @@ class Axis:
     def make(self, name: str, **parameters: Any) -> Any:
         """Make the entry of this registry name."""
         if name not in self.classes:
-            allowed = ", ".join(self.classes)
-            raise _core.InvalidInput(f"{self.name} = {name!r}, allowed: {allowed}")
+            allowed, meant = ", ".join(self.classes), close(list(self.classes), str(name))
+            raise _core.InvalidInput(f"{self.name} = {name!r}, allowed: {allowed}{meant}")
         kind = self.classes[name]
         try:
             return kind(**parameters)
