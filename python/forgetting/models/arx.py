@@ -7,10 +7,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from forgetting._core import RLS, Bank, InvalidInput
-from forgetting.models.channels import channels, paired
+from forgetting._core import InvalidInput
+from forgetting.frames import read, shaped_like
+from forgetting.models.channels import channel_names, channels, paired
 from forgetting.models.constructor import Constructor
-from forgetting.models.lags import regressors
+from forgetting.models.estimator import new_estimator
+from forgetting.models.lags import names, regressors
 from forgetting.models.orders import Orders
 from forgetting.models.simulation import free_run
 
@@ -53,6 +55,8 @@ class ARX(Constructor):
         Rows seen since `fit`, and how many of them the estimate has used.
     n_inputs_, n_outputs_ : int
         Channels of u and y.
+    names_ : list of str
+        What the regressors are called, such as "-V(k-1)": after the columns of data frames.
 
     Examples
     --------
@@ -89,9 +93,9 @@ class ARX(Constructor):
 
         Parameters
         ----------
-        u : array_like, shape (T,) or (T, inputs), or None
+        u : array_like or data frame, shape (T,) or (T, inputs), or None
             Inputs; None when nb = 0. NaN is a missing value.
-        y : array_like, shape (T,) or (T, outputs)
+        y : array_like or data frame, shape (T,) or (T, outputs)
             Outputs. NaN is a missing value.
 
         Returns
@@ -102,29 +106,27 @@ class ARX(Constructor):
         Raises
         ------
         forgetting.InvalidInput
-            When shapes disagree, an order or parameter is out of range, or a value is infinite.
+            When shapes or indexes disagree, an order or parameter is out of range, or a value is
+            infinite.
         """
         inputs, outputs = paired(u, y)
         orders = self._orders(inputs)
-        estimator = self._estimator(
-            orders.regressors(outputs.shape[1], inputs.shape[1]), outputs.shape[1]
+        estimator = new_estimator(
+            orders.regressors(outputs.shape[1], inputs.shape[1]),
+            self.rule,
+            targets=outputs.shape[1],
+            initial_covariance=self.initial_covariance,
+            dtype=self.dtype,
         )
         used = self._learn(estimator, orders, inputs, outputs)
         self.n_inputs_, self.n_outputs_ = inputs.shape[1], outputs.shape[1]
+        self.names_ = names(
+            channel_names("y", y, outputs.shape[1]), channel_names("u", u, inputs.shape[1]), orders
+        )
         self._single = np.ndim(y) == 1
         self._remember(orders, inputs, outputs)
         self.samples_, self.used_ = len(outputs), used
         return self
-
-    def _estimator(self, parameters: int, targets: int) -> Any:
-        settings: dict[str, Any] = {
-            "targets": targets,
-            "initial_covariance": self.initial_covariance,
-            "dtype": self.dtype,
-        }
-        if isinstance(self.rule, str) and self.rule == "auto":
-            return Bank(parameters, **settings)
-        return RLS(parameters, rule=self.rule, **settings)
 
     def partial_fit(self, u: ArrayLike | None, y: ArrayLike) -> ARX:
         """Go on with the next rows; any split of a record gives the same as one `fit`.
@@ -143,15 +145,15 @@ class ARX(Constructor):
         self._remember(orders, inputs, outputs)
         return self
 
-    def predict(self, u: ArrayLike | None, y: ArrayLike) -> Array:
+    def predict(self, u: ArrayLike | None, y: ArrayLike) -> Any:
         """Predict each y(k) one step ahead, from measured y(k-1), y(k-2), ... and the final theta.
 
-        Returns an array shaped like y; NaN where a lag is missing, so always in the first
-        `Orders.reach` rows.
+        Returns an array shaped like y, of pandas and xarray with their index; NaN where a lag is
+        missing, so always in the first `Orders.reach` rows.
         """
         inputs, outputs = self._checked(u, y)
         predicted = regressors(inputs, outputs, self._orders(inputs)) @ self._theta()
-        return predicted[:, 0] if np.ndim(y) == 1 else predicted
+        return shaped_like(read("y", y), predicted[:, 0] if np.ndim(y) == 1 else predicted)
 
     def simulate(self, u: ArrayLike | int, y_start: ArrayLike | None = None) -> Array:
         """Run the model freely: its own past outputs stand in the lags, never measured ones.
