@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from forgetting.choices import Choice, Rate, Rule
+from forgetting.choice import Choice
+from forgetting.choices import Rate, Rule
 from forgetting.tuning.candidate import Candidate
 from forgetting.tuning.code import code, given
 from forgetting.tuning.result import Lines

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from forgetting.choices import AXES, Choice, Rate
+from forgetting.choice import Choice
+from forgetting.choices import AXES, Rate
 from forgetting.tuning.candidate import Candidate
 
 
