@@ -94,9 +94,10 @@ def from_arrow(table: Any) -> Fleet:
     if "state" not in table.column_names:
         raise InvalidInput(f"table has the columns {table.column_names}, but no column state")
     states = table.column("state").to_pylist()
-    if not states or not all(isinstance(state, bytes) for state in states):
+    kept = (table.schema.metadata or {}).get(FRESH)
+    fresh = states[0] if kept is None and states else kept
+    if fresh is None or not all(isinstance(state, bytes) for state in states):
         raise InvalidInput("the column state must hold the state of one stream or more, as bytes")
-    fresh = (table.schema.metadata or {}).get(FRESH, states[0])
     return Fleet._of_states(fresh, _in_order(table, states))
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pickle
+
 import numpy as np
 import pytest
 
@@ -70,3 +72,45 @@ def test_a_missing_sample_on_request(make):
         est.update(PHI[0], 1.0, missing="drop")
     assert est.to_bytes() == before
     assert est.update(PHI[0], 1.0, missing="skip").skipped is None
+
+
+@pytest.mark.parametrize("make", [fg.RLS, fg.Bank])
+def test_results_print_in_one_line_and_pickle(make):
+    est = make(2, targets=2)
+    run = est.run(PHI, np.column_stack([Y, -Y]))
+    update, other = est.update(PHI[0], [1.0, 2.0]), make(2).update(PHI[0], 1.0)
+    fleet = fg.Fleet(2, 2).update(PHI[:2], Y[:2])
+    assert repr(run).startswith("Run(30 samples, 30 used; theta (30, 2, 2), error (30, 2)")
+    for each in (run, update, other, fleet):
+        assert "\n" not in repr(each)
+        copy = pickle.loads(pickle.dumps(each))
+        assert type(copy) is type(each) and repr(copy) == repr(each)
+        for name in dir(each):
+            one, two = getattr(each, name), getattr(copy, name)
+            if not name.startswith("_") and not callable(one):
+                assert np.array_equal(np.asarray(one), np.asarray(two))
+
+
+def test_an_unknown_name_is_answered_with_those_that_there_are():
+    for make in (fg.RLS, fg.Fleet):
+        arguments = (2,) if make is fg.RLS else (2, 2)
+        with pytest.raises(fg.InvalidInput, match=r"rule = .subspase. .*subspace"):
+            make(*arguments, rule="subspase")
+    with pytest.raises(fg.InvalidInput, match=r"weighting = .hubert. .*huber"):
+        fg.Bank(2, weighting="hubert")
+
+
+def test_a_fleet_may_start_empty():
+    for rule in (None, "efra"):
+        fleet = fg.Fleet(0, 2, rule=rule)
+        assert len(fleet) == 0 and fleet.theta.shape == (0, 2)
+        assert fleet.update(np.zeros((0, 2)), np.zeros(0)).used == 0
+        assert fleet.health().status.tolist() == []
+        fleet.append(3)
+        other = fg.Fleet(3, 2, rule=rule)
+        for each in (fleet, other):
+            each.update(PHI[:3], Y[:3])
+        assert [fleet[i].to_bytes() for i in range(3)] == [other[i].to_bytes() for i in range(3)]
+        assert fg.Fleet.from_arrow(fg.Fleet(0, 2, rule=rule).to_arrow()).count == 0
+    with pytest.raises(fg.InvalidInput, match="count"):
+        fg.Fleet(-1, 2)

@@ -6,8 +6,8 @@ import pytest
 import forgetting as fg
 
 BAD_ARGUMENTS = [
-    ({"count": 0}, r"count = 0, allowed: whole numbers from 1"),
-    ({"count": -3}, r"count = -3, allowed: whole numbers from 1"),
+    ({"count": -1}, r"count = -1, allowed: whole numbers from 0"),
+    ({"count": -3}, r"count = -3, allowed: whole numbers from 0"),
     ({"parameters": 0}, r"parameters = 0, allowed: whole numbers"),
     ({"parameters": -1}, r"parameters = -1, allowed: whole numbers"),
     ({"rule": "nonsense"}, r'rule = "nonsense" is not known'),

@@ -263,6 +263,22 @@ pub fn innovation<'py>(py: Python<'py>, innovation: &Innovation) -> PyResult<Bou
     }
 }
 
+/// What [`innovation`] made an object of.
+///
+/// # Errors
+/// `InvalidInput` for what is neither a number nor an array.
+pub fn read_innovation(object: &Bound<'_, PyAny>) -> PyResult<Innovation> {
+    let input = Input::read("error", object, NumberType::F64)?;
+    let elements = match input.numbers()? {
+        Numbers::F64(elements) => elements.into(),
+        Numbers::F32(elements) => elements.iter().map(|&x| f64::from(x)).collect(),
+    };
+    Ok(match input.shape() {
+        [] => Innovation::Scalar(object.extract()?),
+        shape => Innovation::Array { elements, targets: shape.get(1).copied().unwrap_or(1) },
+    })
+}
+
 /// An array for Python; a float if it has no dimension.
 pub fn output_or_float(py: Python<'_>, array: Array) -> PyResult<Bound<'_, PyAny>> {
     match (array.shape.as_slice(), &array.elements) {

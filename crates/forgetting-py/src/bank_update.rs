@@ -1,6 +1,8 @@
 //! What one sample did to a bank, for Python.
 
-use crate::arrays::innovation;
+use crate::arrays::{innovation, read_innovation};
+use crate::pickle::{reduce, Reduced};
+use forgetting_runtime::Skip;
 use pyo3::prelude::*;
 
 /// What one sample did: returned by `Bank.update`.
@@ -59,5 +61,29 @@ impl BankUpdate {
         let (error, leverage) = (self.error(py)?.repr()?, self.0.leverage);
         let skipped = self.skipped().map_or("None".into(), |reason| format!("{reason:?}"));
         Ok(format!("BankUpdate(error={error}, leverage={leverage}, skipped={skipped})"))
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        let attributes = ["error", "leverage", "forgetting_factor", "skipped", "windup", "asleep"];
+        reduce(slf, &attributes)
+    }
+
+    #[staticmethod]
+    fn _of(
+        error: &Bound<'_, PyAny>,
+        leverage: f64,
+        forgetting_factor: f64,
+        skipped: Option<&str>,
+        windup: bool,
+        asleep: usize,
+    ) -> PyResult<Self> {
+        Ok(Self(forgetting_runtime::BankUpdate {
+            error: read_innovation(error)?,
+            leverage,
+            forgetting_factor,
+            skipped: skipped.and_then(Skip::of_word),
+            windup,
+            asleep,
+        }))
     }
 }

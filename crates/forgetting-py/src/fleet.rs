@@ -2,6 +2,7 @@
 
 use crate::arrays::{optional, output, Input};
 use crate::errors::{invalid, raise};
+use crate::pickle::{reduce, Reduced};
 use crate::rls::Rls;
 use crate::settings::{
     names, read_choices, read_optional, view, write_description, Dtype, Names, Whole,
@@ -22,7 +23,7 @@ use pyo3::types::{PyBytes, PyTuple, PyType};
 /// Parameters
 /// ----------
 /// count : int
-///     Number of streams, from 1; `append` adds more.
+///     Number of streams, from 0; `append` adds more.
 /// parameters : int
 ///     Number n of parameters of each stream.
 /// rule : str or Rule, default "subspace"
@@ -429,5 +430,19 @@ pub struct FleetUpdate {
 impl FleetUpdate {
     fn __repr__(&self) -> String {
         format!("FleetUpdate(used={})", self.used)
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduce(slf, &["error", "leverage", "skipped", "used"])
+    }
+
+    #[staticmethod]
+    fn _of(
+        error: Option<Py<PyAny>>,
+        leverage: Option<Py<PyAny>>,
+        skipped: Option<Py<PyAny>>,
+        used: usize,
+    ) -> Self {
+        Self { error, leverage, skipped, used }
     }
 }

@@ -8,6 +8,7 @@ mod callable;
 mod choice;
 mod errors;
 mod fleet;
+mod pickle;
 mod registry;
 mod rls;
 mod run;

@@ -1,6 +1,7 @@
 //! The results of a record, for Python.
 
 use crate::arrays::optional;
+use crate::pickle::{reduce, Reduced};
 use pyo3::prelude::*;
 
 /// Results of `RLS.run` and `Bank.run`, one entry a sample; an output that was not asked for is None.
@@ -91,5 +92,78 @@ impl Run {
             skipped_count: run.samples - run.used,
             reweighted: run.reweighted,
         })
+    }
+}
+
+/// The outputs, as the attributes are called.
+const OUTPUTS: [&str; 15] = [
+    "theta",
+    "error",
+    "leverage",
+    "forgetting_factor",
+    "rank",
+    "skipped",
+    "gate",
+    "windup",
+    "whitened_innovation",
+    "variance",
+    "covariance",
+    "prior_covariance",
+    "weight",
+    "weights",
+    "memory",
+];
+
+#[pymethods]
+impl Run {
+    fn __repr__(slf: &Bound<'_, Self>) -> PyResult<String> {
+        let Self { samples, used, .. } = slf.get();
+        let mut kept = Vec::new();
+        for name in OUTPUTS {
+            let output = slf.getattr(name)?;
+            if !output.is_none() {
+                kept.push(format!("{name} {}", output.getattr("shape")?));
+            }
+        }
+        Ok(format!("Run({samples} samples, {used} used; {})", kept.join(", ")))
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        let (make, outputs) = reduce(slf, &OUTPUTS)?;
+        let Self { samples, used, reweighted, .. } = slf.get();
+        let values = (outputs, *samples, *used, *reweighted).into_pyobject(slf.py())?;
+        Ok((make, values))
+    }
+
+    #[staticmethod]
+    fn _of(
+        outputs: [Option<Py<PyAny>>; 15],
+        samples: usize,
+        used: usize,
+        reweighted: bool,
+    ) -> Self {
+        let [theta, error, leverage, forgetting_factor, rank, skipped, gate, windup, whitened_innovation, variance, covariance, prior_covariance, weight, weights, memory] =
+            outputs;
+        Self {
+            theta,
+            error,
+            leverage,
+            forgetting_factor,
+            rank,
+            skipped,
+            gate,
+            windup,
+            whitened_innovation,
+            variance,
+            covariance,
+            prior_covariance,
+            weight,
+            weights,
+            memory,
+            samples,
+            used,
+            skipped_count: samples - used,
+            reweighted,
+        }
     }
 }

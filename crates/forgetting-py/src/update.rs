@@ -1,6 +1,8 @@
 //! What one sample did, for Python.
 
-use crate::arrays::innovation;
+use crate::arrays::{innovation, read_innovation};
+use crate::pickle::{reduce, Reduced};
+use forgetting_runtime::{Answer, Skip};
 use pyo3::prelude::*;
 
 /// What one sample did: returned by `RLS.update`.
@@ -89,5 +91,46 @@ impl Update {
             "Update(error={error}, leverage={leverage}, forgetting_factor={forgetting_factor}, \
              rank={rank}, skipped={skipped}, gate={gate:?}, windup={windup})"
         ))
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        const ATTRIBUTES: [&str; 9] = [
+            "error",
+            "whitened_innovation",
+            "leverage",
+            "weight",
+            "forgetting_factor",
+            "rank",
+            "skipped",
+            "gate",
+            "windup",
+        ];
+        reduce(slf, &ATTRIBUTES)
+    }
+
+    #[staticmethod]
+    #[allow(clippy::too_many_arguments, reason = "one for each attribute")]
+    fn _of(
+        error: &Bound<'_, PyAny>,
+        whitened_innovation: &Bound<'_, PyAny>,
+        leverage: f64,
+        weight: f64,
+        forgetting_factor: f64,
+        rank: usize,
+        skipped: Option<&str>,
+        gate: &str,
+        windup: bool,
+    ) -> PyResult<Self> {
+        Ok(Self(forgetting_runtime::Update {
+            error: read_innovation(error)?,
+            whitened_innovation: read_innovation(whitened_innovation)?,
+            leverage,
+            weight,
+            forgetting_factor,
+            rank,
+            skipped: skipped.and_then(Skip::of_word),
+            gate: Answer::of_word(gate).unwrap_or(Answer::Update),
+            windup,
+        }))
     }
 }

@@ -66,6 +66,8 @@ pub enum Error {
         what: String,
         /// the name given
         name: String,
+        /// the names that there are
+        known: String,
     },
     /// A parameter that a rule, a rate, a weighting or a gate does not have.
     Parameter {
@@ -158,7 +160,9 @@ impl fmt::Display for Error {
                 write!(f, "{parameter} = {word:?}, allowed: {allowed}")
             }
             Self::Output { name, allowed } => write!(f, "outputs has {name:?}, allowed: {allowed}"),
-            Self::Name { what, name } => write!(f, "{what} = {name:?} is not known"),
+            Self::Name { what, name, known } => {
+                write!(f, "{what} = {name:?} is not known; there are: {known}")
+            }
             Self::Parameter { of, parameter, allowed } => {
                 write!(f, "{of} has no parameter {parameter}; it has: {allowed}")
             }

@@ -58,7 +58,7 @@ pub(super) fn run<T: Number>(
     go_on: GoOn<'_>,
 ) -> Result<Run, Error> {
     let sizes = Sizes::of(bank.memory(), &phi, &y)?;
-    let count = bank.members().len();
+    let count = bank.weights().len();
     let outputs = options.outputs.unwrap_or(&DEFAULT_OUTPUTS);
     let mut outputs = Outputs::<T>::named(outputs, sizes, count)?;
     let shape_of_y = y.shape().to_vec();

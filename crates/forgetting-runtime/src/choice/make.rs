@@ -22,7 +22,8 @@ impl Choice {
         self.check_names(what, entries)?;
         make(&self.name, &Prepared::of(self, adapt)).map_err(|error| match error {
             forgetting::Error::Unknown { .. } => {
-                Error::Name { what: what.into(), name: self.name.clone() }
+                let known: Vec<_> = entries.iter().map(|about| about.name).collect();
+                Error::Name { what: what.into(), name: self.name.clone(), known: known.join(", ") }
             }
             error => error.into(),
         })

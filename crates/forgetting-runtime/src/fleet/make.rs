@@ -14,12 +14,10 @@ use std::borrow::Cow;
 /// A number of streams.
 ///
 /// # Errors
-/// [`Error::Core`] names `count` unless it is from 1.
+/// [`Error::Core`] names `count` unless it is from 0.
 pub(super) fn read_count(count: i64) -> Result<usize, Error> {
-    match usize::try_from(count) {
-        Ok(streams) if streams >= 1 => Ok(streams),
-        _ => Err(forgetting::Error::value("count", count as f64, "whole numbers from 1").into()),
-    }
+    usize::try_from(count)
+        .map_err(|_| forgetting::Error::value("count", count as f64, "whole numbers from 0").into())
 }
 
 /// Makes `count` streams.

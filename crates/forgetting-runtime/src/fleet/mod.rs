@@ -42,7 +42,7 @@ pub struct Fleet {
 }
 
 impl Fleet {
-    /// `count` streams, from 1, as `settings` say; [`Settings::initial_covariance`] may also have
+    /// `count` streams, from 0, as `settings` say; [`Settings::initial_covariance`] may also have
     /// one value a stream, (count, n) or (count, n, n), and [`Settings::initial_theta`], (count,
     /// n). `forgetting_factor` is in the place of that of the rule: for all streams, or one a
     /// stream, (count,).
@@ -206,6 +206,10 @@ impl Fleet {
     /// # Errors
     /// [`Error::Core`] names `count`, or that there is not enough memory; nothing has changed.
     pub fn grow(&mut self, count: i64) -> Result<(), Error> {
+        if count < 1 {
+            let allowed = "whole numbers from 1";
+            return Err(forgetting::Error::value("count", count as f64, allowed).into());
+        }
         let count = make::read_count(count)?;
         Ok(each!(&mut self.typed, streams => streams.grow(count))?)
     }

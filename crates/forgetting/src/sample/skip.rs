@@ -28,6 +28,11 @@ impl Skip {
         }
     }
 
+    /// The reason that this word is, if it is one.
+    pub fn of_word(word: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|reason| reason.word() == word)
+    }
+
     /// The code of this reason: 1 and up.
     pub fn code(self) -> u8 {
         self as u8 + 1
