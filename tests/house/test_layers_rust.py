@@ -49,7 +49,7 @@ LAYERS: dict[str, tuple[str, ...]] = {
     # what only Python needs
     "forgetting-py": (
         "errors",
-        "arrays",
+        "arrays pickle",
         "callable",
         "choice",
         "settings registry run update bank_update shared time",

@@ -12,7 +12,7 @@ import forgetting as fg
 from forgetting.cli import options
 from forgetting.cli.identify import parse_covariance, parse_orders
 from forgetting.cli.rulebook import make_gate, make_rule
-from forgetting.cli.source import read_record, show_record
+from forgetting.cli.source import Rates, read_record, show_record
 from forgetting.cli.tables import say
 
 if TYPE_CHECKING:
@@ -34,6 +34,11 @@ def certify(
     missing: options.Missing = None,
     part: options.Part = None,
     encoding: options.Encoding = None,
+    every: options.Every = None,
+    hold: options.Hold = None,
+    mean: options.Mean = None,
+    nearest: options.Nearest = None,
+    age: options.Age = None,
     show: options.Show = False,
     rule: options.RuleName = "subspace",
     forgetting_factor: options.ForgettingFactor = None,
@@ -52,7 +57,9 @@ def certify(
     from forgetting import analysis
     from forgetting.record.identify import build, listed
 
-    source = read_record(record, time, gap, missing, part, encoding)
+    source = read_record(
+        record, time, gap, missing, part, encoding, Rates(every, hold, mean, nearest, age)
+    )
     if show:
         show_record(source)
         return 0

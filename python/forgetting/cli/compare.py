@@ -13,7 +13,7 @@ from forgetting.cli import options
 from forgetting.cli.identify import check_targets, parse_covariance, parse_orders
 from forgetting.cli.progress import progress_bar
 from forgetting.cli.rulebook import about
-from forgetting.cli.source import read_record, show_record
+from forgetting.cli.source import Rates, read_record, show_record
 from forgetting.cli.tables import console, print_written, say, table
 from forgetting.words.errors import RecordError
 from forgetting.words.rounding import brief
@@ -40,6 +40,11 @@ def compare(
     missing: options.Missing = None,
     part: options.Part = None,
     encoding: options.Encoding = None,
+    every: options.Every = None,
+    hold: options.Hold = None,
+    mean: options.Mean = None,
+    nearest: options.Nearest = None,
+    age: options.Age = None,
     show: options.Show = False,
     rules: Annotated[
         str, typer.Option("--rules", help="all, or registry names with commas.")
@@ -62,7 +67,9 @@ def compare(
     check_targets(record, report, None, plot)
     if plot is not None and forgetting_factor is not None:
         raise RecordError("--plot draws the error over the factor, which --forgetting-factor fixes")
-    source = read_record(record, time, gap, missing, part, encoding)
+    source = read_record(
+        record, time, gap, missing, part, encoding, Rates(every, hold, mean, nearest, age)
+    )
     if show:
         return show_record(source)
     with progress_bar(f"comparing on {record.name}") as progress:

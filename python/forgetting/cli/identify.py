@@ -11,7 +11,7 @@ import numpy as np
 from forgetting.cli import options
 from forgetting.cli.progress import progress_bar
 from forgetting.cli.rulebook import make_gate, rule_or_auto
-from forgetting.cli.source import read_record, show_record
+from forgetting.cli.source import Rates, read_record, show_record
 from forgetting.cli.tables import print_identification, print_written, say
 from forgetting.files import check_outputs
 from forgetting.words.errors import RecordError
@@ -32,6 +32,11 @@ def identify(
     missing: options.Missing = None,
     part: options.Part = None,
     encoding: options.Encoding = None,
+    every: options.Every = None,
+    hold: options.Hold = None,
+    mean: options.Mean = None,
+    nearest: options.Nearest = None,
+    age: options.Age = None,
     show: options.Show = False,
     rule: options.RuleName = None,
     forgetting_factor: options.ForgettingFactor = None,
@@ -58,7 +63,9 @@ def identify(
     check_targets(record, report, estimates, plot)
     if dtype not in ("float64", "float32"):
         raise RecordError(f"--dtype is {dtype!r}; it must be float64 or float32")
-    source = read_record(record, time, gap, missing, part, encoding)
+    source = read_record(
+        record, time, gap, missing, part, encoding, Rates(every, hold, mean, nearest, age)
+    )
     if show:
         return show_record(source)
     if half_life is not None and (forgetting_factor is not None or rate is not None):

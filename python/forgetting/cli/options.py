@@ -98,6 +98,51 @@ Encoding = Annotated[
     str | None,
     option(READING, "Encoding of text, such as cp1250 or shift_jis.", "--encoding"),
 ]
+Every = Annotated[
+    str | None,
+    option(
+        READING,
+        "Join columns of several rates to one clock with this step, such as 1s.",
+        "--every",
+        metavar="DURATION",
+    ),
+]
+Hold = Annotated[
+    list[str] | None,
+    option(
+        READING,
+        "With --every: columns of which the last value is taken, as of all that are not named.",
+        "--hold",
+        metavar="COLUMNS",
+    ),
+]
+Mean = Annotated[
+    list[str] | None,
+    option(
+        READING,
+        "With --every: columns of which the mean over each step is taken.",
+        "--mean",
+        metavar="COLUMNS",
+    ),
+]
+Nearest = Annotated[
+    list[str] | None,
+    option(
+        READING,
+        "With --every: columns of which the nearest value is taken.",
+        "--nearest",
+        metavar="COLUMNS",
+    ),
+]
+Age = Annotated[
+    str | None,
+    option(
+        READING,
+        "With --every: how old a held value, or how far a nearest one, may be.",
+        "--age",
+        metavar="DURATION",
+    ),
+]
 Show = Annotated[bool, option(READING, "Only say how the record is read.", "--show")]
 RuleName = Annotated[
     str | None,

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rich.markup import escape
 
 from forgetting.cli.tables import console
+from forgetting.words.errors import RecordError
 
 if TYPE_CHECKING:
     from forgetting.record import Record
@@ -21,11 +23,39 @@ def read_record(
     missing: Sequence[str] | None,
     part: str | None,
     encoding: str | None,
+    rates: Rates | None = None,
 ) -> Record:
     """Read by the one door, `forgetting.record.read`."""
     from forgetting.record.read import read
 
-    return read(path, time, gap=gap, missing=missing or (), part=part, encoding=encoding)
+    record = read(path, time, gap=gap, missing=missing or (), part=part, encoding=encoding)
+    return record if rates is None else rates.join(record)
+
+
+@dataclass(frozen=True)
+class Rates:
+    """How columns of several rates are joined, as the options say it."""
+
+    every: str | None = None
+    hold: Sequence[str] | None = None
+    mean: Sequence[str] | None = None
+    nearest: Sequence[str] | None = None
+    age: str | None = None
+
+    def join(self, record: Record) -> Record:
+        """The record at one rate, if one was asked for."""
+        if self.every is None:
+            for name in ("hold", "mean", "nearest", "age"):
+                if getattr(self, name):
+                    raise RecordError(f"--{name} goes with --every, the step of the joined clock")
+            return record
+        from forgetting.record.rates import at_one_rate
+
+        def names(texts: Sequence[str] | None) -> list[str]:
+            return [name.strip() for text in texts or () for name in text.split(",")]
+
+        hold, mean, nearest = names(self.hold), names(self.mean), names(self.nearest)
+        return at_one_rate(record, self.every, hold=hold, mean=mean, nearest=nearest, age=self.age)
 
 
 def show_record(record: Record) -> None:

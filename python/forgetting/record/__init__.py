@@ -8,8 +8,17 @@ narwhals brings frames of other libraries. All come with ``pip install 'forgetti
 
 from forgetting.record.identification import Identification
 from forgetting.record.identify import identify
+from forgetting.record.rates import at_one_rate
 from forgetting.record.read import Record, read
 from forgetting.record.tune import tune
 from forgetting.words.errors import RecordError
 
-__all__ = ["Identification", "Record", "RecordError", "identify", "read", "tune"]
+__all__ = [
+    "Identification",
+    "Record",
+    "RecordError",
+    "at_one_rate",
+    "identify",
+    "read",
+    "tune",
+]
