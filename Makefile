@@ -8,7 +8,8 @@
 #                records of the demo; RECORDS=folder for other ones, .csv or .parquet
 #   make docs    the documentation, warnings as errors
 #   make fuzz    random input for FUZZ_SECONDS a target (an hour), new seeds each time
-#   make soak    a billion samples through every rule of O(n^2), in hours; goes on where it was stopped
+#   make soak    a billion samples through every rule of O(n^2), the default and the bank, in hours; goes on
+#                where it was stopped; SOAK_ONLY=bank,subspace for some of them
 #   make stubs   write again what is generated from the registries: stubs, README table, rule pages
 
 PYTHON ?= python3
@@ -70,7 +71,7 @@ fuzz:
 	    --test fuzz --quiet -- --nocapture
 
 soak:
-	SOAK_STEPS=$(SOAK_STEPS) SOAK_FOLDER=$(SOAK_FOLDER) cargo test --package forgetting \
+	SOAK_STEPS=$(SOAK_STEPS) SOAK_FOLDER=$(SOAK_FOLDER) SOAK_ONLY=$(SOAK_ONLY) cargo test --package forgetting \
 	    --profile $(PROFILE) --test soak --quiet -- --nocapture
 
 stubs: build

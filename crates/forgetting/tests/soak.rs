@@ -1,13 +1,21 @@
 //! Soaking: every rule of O(n²) for as many samples as it may see in years. A short form runs with
-//! the other tests; `make soak` takes a billion samples of each, and goes on where it was stopped.
+//! the other tests; `make soak` takes a billion samples of each, and goes on where it was stopped. With
+//! them the default bank and the default of an estimator.
 
 #[path = "conformance/record.rs"]
 mod record;
 #[path = "conformance/subjects.rs"]
 mod subjects;
 
-use forgetting::saved::AnyEstimator;
-use forgetting::{Kernels, Noise, Outcome};
+use forgetting::bank::{default_members, Bank, BankOutcome, Kept};
+use forgetting::choice::Defaults;
+use forgetting::mixers::AnyMixer;
+use forgetting::rates::AnyRate;
+use forgetting::rules::{RandomWalk, Rule};
+use forgetting::weightings::{AnyWeighting, Equal};
+use forgetting::{
+    AnyEstimator, Constant, Dynamic, Estimator, Kernels, Noise, Outcome, Prior, DIFFUSE,
+};
 use record::Noise as Random;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -46,46 +54,115 @@ fn block(k: u64) -> (Vec<f64>, Vec<f64>) {
     (phi, y)
 }
 
+/// What takes samples for years: an estimator or a bank.
+trait Soaked<T: Kernels>: Sized {
+    /// Takes samples of [`N`] numbers φ and one number y each.
+    fn take(&mut self, phi: &[T], y: &[T]);
+    fn theta(&self) -> &[T];
+    fn is_sound(&self) -> bool;
+    fn to_bytes(&self) -> Vec<u8>;
+    fn from_bytes(bytes: &[u8]) -> Self;
+}
+
+/// Samples that are taken in one call, where that can be.
+const TOGETHER: usize = 64;
+
+impl<T: Kernels> Soaked<T> for AnyEstimator<T> {
+    fn take(&mut self, phi: &[T], y: &[T]) {
+        let (mut outcomes, mut i) = ([Outcome::default(); TOGETHER], 0);
+        while i < y.len() {
+            let most = TOGETHER.min(y.len() - i);
+            let taken = self.update_many(&phi[i * N..], &y[i..], &mut outcomes[..most], &mut []);
+            if taken == 0 {
+                update(self, &phi[i * N..(i + 1) * N], &y[i..=i], Noise::Unit).unwrap();
+            }
+            i += taken.max(1);
+        }
+    }
+
+    fn theta(&self) -> &[T] {
+        self.theta()
+    }
+
+    fn is_sound(&self) -> bool {
+        self.is_sound()
+    }
+
+    fn to_bytes(&self) -> Vec<u8> {
+        self.to_bytes().unwrap()
+    }
+
+    fn from_bytes(bytes: &[u8]) -> Self {
+        Self::from_bytes(bytes).unwrap()
+    }
+}
+
+impl<T: Kernels> Soaked<T> for Bank<T> {
+    fn take(&mut self, phi: &[T], y: &[T]) {
+        let (mut outcomes, mut i) = ([BankOutcome::default(); TOGETHER], 0);
+        while i < y.len() {
+            let (most, kept) = (TOGETHER.min(y.len() - i), &mut Kept::default());
+            let taken = self.update_many(&phi[i * N..], &y[i..], &mut outcomes[..most], kept);
+            if taken == 0 {
+                self.update(&phi[i * N..(i + 1) * N], &y[i..=i], Noise::Unit).unwrap();
+            }
+            i += taken.max(1);
+        }
+        let sum = self.weights().iter().fold(0.0, |sum, w| sum + w.to_f64());
+        assert!((sum - 1.0).abs() < 1e-5, "weights add up to {sum}");
+    }
+
+    fn theta(&self) -> &[T] {
+        self.theta()
+    }
+
+    fn is_sound(&self) -> bool {
+        self.is_sound()
+    }
+
+    fn to_bytes(&self) -> Vec<u8> {
+        self.to_bytes().unwrap()
+    }
+
+    fn from_bytes(bytes: &[u8]) -> Self {
+        Self::from_bytes(bytes).unwrap()
+    }
+}
+
 /// Takes samples until there were `steps`, from where it was stopped; returns how many it took.
-fn soak<T: Kernels>(subject: &Subject, steps: u64, folder: Option<&PathBuf>) -> u64 {
-    let name = format!("{}-{}", subject.about.name, 8 * T::BYTES);
+fn soak<T: Kernels, S: Soaked<T>>(
+    name: &str,
+    fresh: S,
+    forgets: bool,
+    steps: u64,
+    folder: Option<&PathBuf>,
+) -> u64 {
+    let name = format!("{name}-{}", 8 * T::BYTES);
     let place = folder.map(|folder| folder.join(name.clone() + ".state"));
     let saved = place.as_ref().and_then(|place| std::fs::read(place).ok());
     let (mut k, mut estimator) = match saved {
         Some(bytes) => {
             let (count, state) = bytes.split_at(8);
-            let count = u64::from_le_bytes(count.try_into().unwrap());
-            (count, AnyEstimator::<T>::from_bytes(state).unwrap())
+            (u64::from_le_bytes(count.try_into().unwrap()), S::from_bytes(state))
         }
-        None => (0, subject.estimator::<T>((N, 1, 1), 0.99, 100.0).unwrap()),
+        None => (0, fresh),
     };
-    let (first, mut outcomes) = (k, vec![Outcome::default(); 64]);
+    let first = k;
     while k * (BLOCK as u64) < steps {
         let (phi, y) = block(k);
         let phi: Vec<T> = phi.into_iter().map(T::from_f64).collect();
         let y: Vec<T> = y.into_iter().map(T::from_f64).collect();
-        let mut i = 0;
-        while i < BLOCK {
-            let most = outcomes.len().min(BLOCK - i);
-            let taken =
-                estimator.update_many(&phi[i * N..], &y[i..], &mut outcomes[..most], &mut []);
-            if taken == 0 {
-                let sample = (&phi[i * N..(i + 1) * N], &y[i..=i]);
-                update(&mut estimator, sample.0, sample.1, Noise::Unit).unwrap();
-            }
-            i += taken.max(1);
-        }
+        estimator.take(&phi, &y);
         k += 1;
-        assert!(estimator.is_sound(), "{name}, block {k}: {estimator:?}");
+        assert!(estimator.is_sound(), "{name}, block {k}");
         // the last half of a block excites: whoever forgets has found the truth again
-        let forgets = !matches!(subject.about.name, "none" | "restricted" | "data_dependent");
         for (found, truth) in estimator.theta().iter().zip(TRUTH) {
             let off = (found.to_f64() - truth).abs();
             assert!(off < 0.05 || !forgets, "{name}, block {k}: {:?}", estimator.theta());
         }
         if let Some(place) = &place {
             let mut bytes = k.to_le_bytes().to_vec();
-            bytes.extend(estimator.to_bytes().unwrap());
+            bytes.extend(estimator.to_bytes());
             std::fs::write(place.with_extension("new"), bytes).unwrap();
             std::fs::rename(place.with_extension("new"), place).unwrap();
         }
@@ -93,21 +170,56 @@ fn soak<T: Kernels>(subject: &Subject, steps: u64, folder: Option<&PathBuf>) -> 
     (k - first) * BLOCK as u64
 }
 
+/// The rule where none is named: a random walk, bounded, with a prior that follows the data.
+fn default_estimator<T: Kernels>() -> AnyEstimator<T> {
+    let memory = Dynamic::new(N, 1, 1).unwrap();
+    let rule = RandomWalk::bounded(T::from_f64(3e-3), T::from_f64(DIFFUSE), memory).unwrap();
+    let (rate, weighting) = (Constant::new(T::ONE).unwrap(), AnyWeighting::Equal(Equal::new()));
+    let (rule, rate) = (Rule::RandomWalk(rule), AnyRate::Constant(rate));
+    Estimator::new(rule, rate, weighting, Prior::of_data(memory))
+}
+
+fn default_bank<T: Kernels>() -> Bank<T> {
+    let members = default_members(Dynamic::new(N, 1, 1).unwrap()).unwrap();
+    let mixer = AnyMixer::named("mlpol", &Defaults, Dynamic::new(members.len(), 1, 1).unwrap());
+    Bank::of_data(members, mixer.unwrap()).unwrap()
+}
+
 #[test]
 fn nothing_wears_out() {
     let steps = number("SOAK_STEPS").unwrap_or(2 * BLOCK as u64);
+    let only = std::env::var("SOAK_ONLY").unwrap_or_default();
     let folder = std::env::var("SOAK_FOLDER").ok().map(PathBuf::from);
     if let Some(folder) = &folder {
         std::fs::create_dir_all(folder).unwrap();
     }
-    let square = |subject: &Subject| subject.about.cost.contains("n^2");
-    for subject in rules().filter(square) {
-        let start = Instant::now();
-        let double = soak::<f64>(&subject, steps, folder.as_ref());
-        let single = soak::<f32>(&subject, steps, folder.as_ref());
-        let (name, seconds) = (subject.about.name, start.elapsed().as_secs_f64());
+    let folder = folder.as_ref();
+    let wanted = |name: &str| only.is_empty() || only.split(',').any(|each| each == name);
+    let say = |name: &str, start: Instant, (double, single): (u64, u64)| {
+        let seconds = start.elapsed().as_secs_f64();
         println!(
             "soak {name}: 0 failures in {double} f64 and {single} f32 samples, {seconds:.0} s"
         );
+    };
+    if wanted("bank") {
+        let start = Instant::now();
+        let double = soak("bank", default_bank::<f64>(), true, steps, folder);
+        say("bank", start, (double, soak("bank", default_bank::<f32>(), true, steps, folder)));
+    }
+    if wanted("default") {
+        let (name, start) = ("default", Instant::now());
+        let double = soak(name, default_estimator::<f64>(), true, steps, folder);
+        say(name, start, (double, soak(name, default_estimator::<f32>(), true, steps, folder)));
+    }
+    let square =
+        |subject: &Subject| subject.about.cost.contains("n^2") && wanted(subject.about.name);
+    for subject in rules().filter(square) {
+        let (name, start) = (subject.about.name, Instant::now());
+        let forgets = !matches!(name, "none" | "restricted" | "data_dependent");
+        let sizes = (N, 1, 1);
+        let double = subject.estimator::<f64>(sizes, 0.99, 100.0).unwrap();
+        let single = subject.estimator::<f32>(sizes, 0.99, 100.0).unwrap();
+        let double = soak(name, double, forgets, steps, folder);
+        say(name, start, (double, soak(name, single, forgets, steps, folder)));
     }
 }
