@@ -31,6 +31,7 @@ LAYERS: tuple[tuple[tuple[str, ...], str], ...] = (
     (("sklearn", "river"), "the estimators as other libraries want them"),
     (("analysis",), "the theory applied to arrays; it has never heard of files"),
     (("record",), "files become identifications, which quote the analysis"),
+    (("stream",), "lines become estimates as they come, by what a record means"),
     (("plot",), "draws analyses and identifications"),
     (("report",), "puts pictures on pages"),
     (("papers", "demo"), "use all of it on known data; neither needs the other"),

@@ -13,6 +13,7 @@ from forgetting.cli.demo import demo
 from forgetting.cli.identify import identify
 from forgetting.cli.reproduce import reproduce
 from forgetting.cli.rules import rules
+from forgetting.cli.stream import stream
 from forgetting.cli.tables import leave_quietly, say
 from forgetting.cli.tune import tune
 from forgetting.words.errors import RecordError
@@ -32,6 +33,7 @@ app.command()(identify)
 app.command()(tune)
 app.command()(compare)
 app.command()(certify)
+app.command()(stream)
 app.command()(rules)
 app.command()(demo)
 app.command()(reproduce)

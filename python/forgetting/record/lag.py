@@ -6,15 +6,21 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from forgetting.record.read import Record
-
 
 class Lag:
-    """``lag(x, k)``: x, k rows ago, within a stretch between gaps of the clock."""
+    """``lag(x, k)``: x, k rows ago, within a stretch between gaps of the clock.
 
-    def __init__(self, record: Record) -> None:
-        self.segments = None if record.clock is None else record.clock.segments()
-        self.cut: NDArray[np.bool_] = np.zeros(len(record.frame), dtype=bool)
+    Parameters
+    ----------
+    rows : int
+        Rows of the table.
+    segments : ndarray of int, shape (T,), optional
+        The stretch that each row belongs to; None without a clock.
+    """
+
+    def __init__(self, rows: int, segments: NDArray[np.int64] | None = None) -> None:
+        self.segments = segments
+        self.cut: NDArray[np.bool_] = np.zeros(rows, dtype=bool)
         """Rows in which a value was there, but on the other side of a gap."""
 
     def __call__(self, column: pd.Series, steps: int = 1) -> pd.Series:

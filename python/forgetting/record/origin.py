@@ -56,7 +56,7 @@ class Origin:
             return trace
         c, level = self.constant, self.level
         theta = trace.theta.copy()
-        theta[:, c] += (self.y - np.einsum("i,tij->tj", self.phi, theta)) / level
+        theta[:, c] += (self.y - weighted_sum(self.phi, theta)) / level
         change = np.eye(len(self.phi))
         change[c] -= self.phi / level
         variance = trace.variance.copy()
@@ -86,3 +86,17 @@ def origin(samples: Samples, moves: bool = True) -> Origin:
     first = phi[0].copy()
     first[constant] = 0.0
     return Origin(constant, float(phi[0, constant]), first, y[0].copy())
+
+
+def weighted_sum(weights: Array, values: Array) -> Array:
+    """Sum of weights[i] times values[:, i], in this order: every grouping of rows rounds alike.
+
+    Examples
+    --------
+    >>> weighted_sum(np.array([1.0, 2.0]), np.array([[[3.0], [4.0]]]))
+    array([[11.]])
+    """
+    total = weights[0] * values[:, 0]
+    for i in range(1, len(weights)):
+        total = total + weights[i] * values[:, i]
+    return np.asarray(total)

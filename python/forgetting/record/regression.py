@@ -37,7 +37,8 @@ def regression(record: Record, formula: str) -> Samples:
     """
     parsed = parse(formula)
     frame = checked_columns(record, parsed, formula)
-    lag = Lag(record)
+    segments = None if record.clock is None else record.clock.segments()
+    lag = Lag(len(record.frame), segments)
     matrices = evaluate(parsed, formula, frame, lag)
     phi, y = matrices.rhs, matrices.lhs
     if phi.shape[1] == 0:

@@ -1,0 +1,167 @@
+"""`forgetting stream`."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from forgetting.cli import options
+from forgetting.cli.identify import parse_covariance, parse_orders
+from forgetting.cli.rulebook import make_gate, rule_or_auto
+from forgetting.files import check_outputs
+from forgetting.words.errors import RecordError
+
+if TYPE_CHECKING:
+    from forgetting.stream.inputs import Input
+    from forgetting.stream.settings import Settings
+
+OUT, STATE = "What is written", "Going on after a stop"
+
+
+def stream(
+    source: Annotated[
+        Path, typer.Argument(help="CSV with a line of names, or JSON lines; - is standard input.")
+    ] = Path("-"),
+    follow: Annotated[
+        bool,
+        options.option(
+            options.READING, "Wait for more at the end of the file, as tail -F does.", "--follow"
+        ),
+    ] = False,
+    formula: options.Formula = None,
+    output: options.Outputs = None,
+    input: options.Inputs = None,
+    arx: options.Orders = None,
+    offset: options.Offset = True,
+    time: options.Time = None,
+    gap: Annotated[
+        str | None,
+        options.option(
+            options.READING,
+            "Longest step in time across which lags reach, such as 5min, or none for any; "
+            "1.5 medians of the last steps when absent.",
+            "--gap",
+            metavar="DURATION",
+        ),
+    ] = None,
+    missing: options.Missing = None,
+    separator: Annotated[
+        str | None,
+        options.option(
+            options.READING, "Between cells, when the first lines do not tell.", "--separator"
+        ),
+    ] = None,
+    names: Annotated[
+        str | None,
+        options.option(
+            options.READING, "Names of the columns, with commas, when no line has them.", "--names"
+        ),
+    ] = None,
+    rule: options.RuleName = None,
+    forgetting_factor: options.ForgettingFactor = None,
+    threshold: options.Threshold = None,
+    settings: options.Settings = None,
+    gate: options.GateText = None,
+    initial_covariance: options.InitialCovariance = "auto",
+    dtype: options.Dtype = "float64",
+    to: Annotated[str, options.option(OUT, "json (an object a line) or csv.", "--to")] = "json",
+    fields: Annotated[
+        str | None,
+        options.option(
+            OUT,
+            "What is written of every row, with commas: row, time, measured, prediction, error, "
+            "theta, standard_errors, noise_variance, leverage, forgetting_factor, memory, weight, "
+            "weights, skipped, gate.",
+            "--fields",
+            metavar="NAMES",
+        ),
+    ] = None,
+    state: Annotated[
+        Path | None,
+        options.option(
+            STATE, "Save all that the next line needs, and go on from there.", "--state"
+        ),
+    ] = None,
+    save_every: Annotated[
+        int, options.option(STATE, "Rows after which to save, at the latest.", "--save-every")
+    ] = 1000,
+) -> None:
+    """Follow a sensor: one line of estimates for every line that comes.
+
+    Say the model by --formula, or by --output with --input, and --arx for its dynamics. Alarms
+    (windup, a parameter that nothing excites, a change) are lines of their own.
+    """
+    from forgetting.stream.pump import Pump
+    from forgetting.stream.stream import Stream
+
+    check_options(to, dtype, save_every, source, follow, state)
+    told = made_settings(
+        formula=formula,
+        output=tuple(output or ()),
+        input=tuple(input or ()),
+        arx=None if arx is None else parse_orders(arx),
+        offset=offset,
+        rule=rule_or_auto(rule, forgetting_factor, threshold, settings or []),
+        gate=make_gate(gate),
+        initial_covariance=parse_covariance(initial_covariance),
+        dtype=dtype,
+        time=time,
+        gap=gap,
+        missing=tuple(missing or ()),
+        separator=separator,
+        names=names,
+    )
+    lines = opened(source, follow)
+    try:
+        pump = Pump(Stream(told, to, fields), lines, sys.stdout.fileno(), tell, state, save_every)
+        pump.resume()
+        pump.run()
+    finally:
+        lines.close()
+
+
+def made_settings(
+    gap: str | None, separator: str | None, names: str | None, **more: Any
+) -> Settings:
+    """Settings of what the options say."""
+    from forgetting.record.clock import gap_of
+    from forgetting.stream.form import separator_of
+    from forgetting.stream.settings import Settings
+
+    given = None if names is None else [name.strip() for name in names.split(",")]
+    return Settings(gap=gap_of(gap), separator=separator_of(separator), names=given, **more)
+
+
+def check_options(
+    to: str, dtype: str, save_every: int, source: Path, follow: bool, state: Path | None
+) -> None:
+    """Refuse what can be seen to be wrong before a line is read."""
+    if to not in ("json", "csv"):
+        raise RecordError(f"--to is {to!r}; it must be json or csv")
+    if dtype not in ("float64", "float32"):
+        raise RecordError(f"--dtype is {dtype!r}; it must be float64 or float32")
+    if save_every < 1:
+        raise RecordError(f"--save-every is {save_every}; it must be at least 1")
+    is_pipe = str(source) == "-"
+    if follow and is_pipe:
+        raise RecordError("--follow needs a file; standard input is followed to its end anyway")
+    if not is_pipe and not follow and not source.is_file():
+        raise RecordError(f"there is no file {source}")
+    if not is_pipe and source.is_dir():
+        raise RecordError(f"{source} is a folder; a stream is a file or standard input")
+    check_outputs({"--state": state}, None if is_pipe else source)
+
+
+def opened(source: Path, follow: bool) -> Input:
+    """What lines are read from."""
+    from forgetting.stream.inputs import File, Pipe
+
+    return Pipe(sys.stdin.fileno()) if str(source) == "-" else File(source, follow)
+
+
+def tell(sentence: str) -> None:
+    """Say something beside the lines."""
+    print(f"forgetting: {sentence}.", file=sys.stderr, flush=True)

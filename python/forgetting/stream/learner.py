@@ -1,0 +1,214 @@
+"""The estimator of a stream, and what it says of every row: estimates, errors, standard errors.
+
+The same as `forgetting.record.identify` says of a record, with the same origin (a model with a
+constant is measured from its first complete sample) and the same standard errors; that of the
+constant is exact at every row.
+"""
+
+from __future__ import annotations
+
+import base64
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+import forgetting as fg
+from forgetting.record.identify import estimator_for
+from forgetting.record.origin import weighted_sum
+from forgetting.record.trace import USED
+from forgetting.words.errors import RecordError
+
+Array = NDArray[np.float64]
+
+ROOM = 4_000_000
+"""Numbers that the covariances of one run may be."""
+
+
+@dataclass(frozen=True)
+class Estimates:
+    """What T rows brought.
+
+    Attributes
+    ----------
+    theta : ndarray, shape (T, n, m)
+    error, prediction : ndarray, shape (T, m)
+    standard_errors : ndarray, shape (T, n, m), or None
+        None where they were not asked for.
+    noise_variance : ndarray, shape (T, m)
+    skipped : ndarray of uint8, shape (T,)
+        See `forgetting.SKIPPED`.
+    others : dict of str to ndarray
+        Further outputs of the estimator's `run`, by name.
+    """
+
+    theta: Array
+    error: Array
+    prediction: Array
+    standard_errors: Array | None
+    noise_variance: Array
+    skipped: NDArray[np.uint8]
+    others: dict[str, NDArray[Any]]
+
+
+class Learner:
+    """An estimator, the origin that it measures from, and the noise so far.
+
+    Parameters
+    ----------
+    regressors, outputs : int
+    constant : int or None
+        The regressor that is the constant 1.
+    rule, gate, initial_covariance, dtype
+        See `forgetting.record.identify`.
+    standard_errors : bool
+        Whether they are wanted; that of the constant needs all of P at every row.
+    also : tuple of str
+        Further outputs of `run` that are wanted.
+    """
+
+    def __init__(
+        self,
+        regressors: int,
+        outputs: int,
+        constant: int | None,
+        rule: Any,
+        gate: Any,
+        initial_covariance: Any,
+        dtype: str,
+        standard_errors: bool,
+        also: tuple[str, ...],
+    ) -> None:
+        settings = {"targets": outputs, "initial_covariance": initial_covariance, "dtype": dtype}
+        self.estimator = estimator_for(regressors, rule, gate=gate, **settings)
+        self.constant = constant if initial_covariance is None else None
+        self.n, self.m = regressors, outputs
+        self.wants_errors = standard_errors
+        self.also = also
+        self.phi0: Array | None = None
+        self.y0 = np.zeros(outputs)
+        self.used = 0
+        self.total = np.zeros(outputs)
+        """Sum of e² / (1 + leverage) over the used samples but the first n."""
+
+    def take(self, phi: Array, y: Array) -> tuple[Estimates, Array, Array]:
+        """Learn from rows; also the rows as they were measured from the origin.
+
+        Raises
+        ------
+        forgetting.NumericalRange
+            When a rule without a bounded covariance ran out of the range of numbers.
+        """
+        start = self._find_origin(phi, y)
+        moved = phi if self.phi0 is None else phi - self.phi0
+        target = y if self.phi0 is None else y - self.y0
+        pieces = [self._run(moved[each], target[each]) for each in self._slices(len(phi))]
+        found = {key: np.concatenate([piece[key] for piece in pieces]) for key in pieces[0]}
+        return self._estimates(found, y, start), moved, target
+
+    def _find_origin(self, phi: Array, y: Array) -> int:
+        """Take the first complete sample as origin; the first row that is measured from it."""
+        if self.constant is None or self.phi0 is not None:
+            return 0
+        complete = np.flatnonzero(~(np.isnan(phi).any(axis=1) | np.isnan(y).any(axis=1)))
+        if not len(complete):
+            return len(phi)
+        first = int(complete[0])
+        self.phi0, self.y0 = phi[first].copy(), y[first].copy()
+        self.phi0[self.constant] = 0.0
+        return first
+
+    def _slices(self, total: int) -> list[slice]:
+        length = max(ROOM // self.n**2, 1) if self._needs_covariance else total
+        return [slice(k, k + length) for k in range(0, total, length)]
+
+    @property
+    def _needs_covariance(self) -> bool:
+        return self.wants_errors and self.constant is not None
+
+    def _run(self, phi: Array, y: Array) -> dict[str, Any]:
+        dtype = np.dtype(self.estimator.dtype)
+        wanted = ["theta", "error", "leverage", "skipped", "windup", *self.also]
+        if self.wants_errors:
+            wanted.append("covariance" if self._needs_covariance else "variance")
+        target = y if self.m > 1 else y[:, 0]
+        run = self.estimator.run(
+            np.ascontiguousarray(phi, dtype=dtype),
+            np.ascontiguousarray(target, dtype=dtype),
+            outputs=tuple(dict.fromkeys(wanted)),
+            missing="skip",
+        )
+        found = {name: getattr(run, name) for name in wanted}
+        return {
+            name: values.astype(np.float64) if values.dtype.kind == "f" else values
+            for name, values in found.items()
+        }
+
+    def _estimates(self, found: dict[str, Any], y: Array, start: int) -> Estimates:
+        total = len(y)
+        theta = found["theta"].reshape(total, self.n, self.m)
+        error = found["error"].reshape(total, self.m)
+        noise = self._noise(error, found["leverage"], found["skipped"] == USED)
+        errors = None
+        if self.wants_errors:
+            errors = np.sqrt(self._variance(found)[:, :, None] * noise[:, None, :])
+        if self.phi0 is not None:
+            theta[start:, self.constant] += self.y0 - weighted_sum(self.phi0, theta[start:])
+        others = {name: found[name] for name in (*self.also, "windup")}
+        return Estimates(theta, error, y - error, errors, noise, found["skipped"], others)
+
+    def _variance(self, found: dict[str, Any]) -> Array:
+        """Diagonal of P for the regressors as they are, (T, n)."""
+        if not self._needs_covariance:
+            return np.asarray(found["variance"])
+        covariance = found["covariance"]
+        variance: Array = np.einsum("tii->ti", covariance).copy()
+        if self.phi0 is not None:
+            change = -self.phi0
+            change[self.constant] = 1.0
+            products = weighted_sum(change, covariance)
+            variance[:, self.constant] = weighted_sum(change, products)
+        return variance
+
+    def _noise(self, error: Array, leverage: Array, used: NDArray[np.bool_]) -> Array:
+        """Running noise variance, as `forgetting.record.uncertainty` has it; sums go on."""
+        order = self.used + np.cumsum(used)
+        counted = used & (order > self.n)
+        normalised = np.where(counted[:, None], error**2 / (1.0 + leverage[:, None]), 0.0)
+        sums = np.cumsum(np.vstack([self.total, normalised]), axis=0)[1:]
+        count = np.maximum(order - self.n, 0)[:, None]
+        self.used, self.total = int(order[-1]), sums[-1].copy()
+        return np.where(count > 0, sums / np.maximum(count, 1), np.nan)
+
+    def state(self) -> dict[str, Any]:
+        """As `restore` takes it."""
+        return {
+            "estimator": base64.b64encode(self.estimator.to_bytes()).decode(),
+            "phi0": None if self.phi0 is None else self.phi0.tolist(),
+            "y0": self.y0.tolist(),
+            "used": self.used,
+            "total": self.total.tolist(),
+        }
+
+    def restore(self, state: dict[str, Any]) -> None:
+        """Go on from a saved state.
+
+        Raises
+        ------
+        RecordError
+            When the saved estimator is another one.
+        """
+        saved = type(self.estimator).from_bytes(base64.b64decode(state["estimator"]))
+        own = (self.estimator.parameters, self.estimator.targets, self.estimator.describe())
+        if (saved.parameters, saved.targets, saved.describe()) != own:
+            raise RecordError("the saved estimator is another than that of these settings")
+        self.estimator = saved
+        self.phi0 = None if state["phi0"] is None else np.array(state["phi0"])
+        self.y0, self.used = np.array(state["y0"]), state["used"]
+        self.total = np.array(state["total"])
+
+
+def in_bank(estimator: Any) -> bool:
+    """Whether the estimator is a bank, which has a memory and weights of its members."""
+    return isinstance(estimator, fg.Bank)

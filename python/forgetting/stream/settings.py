@@ -1,0 +1,61 @@
+"""What a stream is told: the model, the rule, and how lines are read."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Settings of a stream; each means what it means for `forgetting.record.identify`.
+
+    Parameters
+    ----------
+    output, input : sequence of str
+        Columns of an ARX model; without `arx` of a regression on the inputs of the same row.
+    arx : sequence of three int, optional
+        Orders na, nb, nk.
+    formula : str, optional
+        A regression whose terms need no more than the row and its lags.
+    offset : bool
+        Whether an ARX model or a regression by columns has a constant.
+    rule, gate, initial_covariance, dtype
+        The estimator; without a rule a bank.
+    time, gap, missing
+        The clock, its gaps in seconds, and what stands for missing values.
+    separator : str, optional
+        Between cells; found in the first lines when absent.
+    names : sequence of str, optional
+        The columns of a stream that has no line of names.
+    """
+
+    output: Sequence[str] = ()
+    input: Sequence[str] = ()
+    arx: Sequence[int] | None = None
+    formula: str | None = None
+    offset: bool = True
+    rule: Any = "auto"
+    gate: Any = None
+    initial_covariance: ArrayLike | None = None
+    dtype: str = "float64"
+    time: str | None = None
+    gap: float | None = None
+    missing: Sequence[str] = ()
+    separator: str | None = None
+    names: Sequence[str] | None = None
+
+    def as_data(self) -> dict[str, str]:
+        """Every setting as text, to be compared with that of a saved state."""
+        return {each.name: text_of(getattr(self, each.name)) for each in fields(self)}
+
+
+def text_of(value: Any) -> str:
+    """A setting as text; lists of any kind alike."""
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
+    return repr(list(value) if isinstance(value, tuple) else value)

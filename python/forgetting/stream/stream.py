@@ -1,0 +1,214 @@
+"""A stream: blocks of lines in, lines of estimates and alarms out."""
+
+from __future__ import annotations
+
+import io
+from itertools import islice
+from typing import Any
+
+import numpy as np
+
+from forgetting.record.formats.dialect import is_aside
+from forgetting.record.trace import MISSING, USED
+from forgetting.stream import fields as field_names
+from forgetting.stream.blocks import decoded, first_cells, pieces
+from forgetting.stream.clock import Marks, StreamClock
+from forgetting.stream.form import Form, recognised
+from forgetting.stream.learner import Estimates, Learner, in_bank
+from forgetting.stream.model import Model, make_model
+from forgetting.stream.output import Batch, Output, with_alarms
+from forgetting.stream.parse import Parser
+from forgetting.stream.position import Position
+from forgetting.stream.rows import Array, Rows
+from forgetting.stream.settings import Settings
+from forgetting.stream.stamps import Stamps, find_stamps
+from forgetting.stream.tally import Tally
+from forgetting.stream.watch import Watch
+from forgetting.stream.writing import Writer
+
+
+class Stream:
+    """Estimates a model from lines as they come.
+
+    Parameters
+    ----------
+    settings : Settings
+    to : str
+        "json" (an object a line; alarms are objects of their own) or "csv".
+    fields : str, optional
+        What is written of every row, with commas; see `forgetting.stream.fields`.
+
+    Examples
+    --------
+    >>> stream = Stream(Settings(output=["y"], input=["u"]), fields="row,error")
+    >>> lines = stream.feed(b"u,y\\n1.0,2.0\\n").lines
+    >>> lines
+    [b'{"row":1,"error":0.0}\\n']
+    """
+
+    def __init__(self, settings: Settings, to: str = "json", fields: str | None = None) -> None:
+        self.settings, self.to, self.fields = settings, to, fields
+        self.position = Position()
+        self.tally = Tally()
+        self.form: Form | None = None
+        self.stamps: Stamps | None = None
+        self.pending = b""
+        self.begins = False
+        """Whether the next line is the first of a further input."""
+        self.header_due = to == "csv"
+
+    def feed(self, block: bytes) -> Output:
+        """Take whole lines.
+
+        Raises
+        ------
+        RecordError
+            When the first lines hold no table, or not the columns of the model.
+        forgetting.NumericalRange
+            When a rule without a bounded covariance ran out of the range of numbers.
+        """
+        self.position.advance(block)
+        if not block.endswith(b"\n"):
+            block += b"\n"
+        if self.form is None:
+            self.pending += block
+            if not self._begin():
+                return Output()
+            block, self.pending = self.pending, b""
+        if self.begins:
+            self._check_first(block)
+        made = Output()
+        block = self._below_names(block)
+        if self.header_due:
+            made.lines.append(self.writer.header())
+            self.header_due = False
+        for piece in pieces(block):
+            self._take(piece, made)
+        return made
+
+    def further_input(self) -> None:
+        """Begin with another input, such as a file that took the place of the one before."""
+        self.position.restart()
+        self.begins = True
+
+    def _check_first(self, block: bytes) -> None:
+        assert self.form is not None
+        self.begins = False
+        self.form.check_first(decoded(block[: block.index(b"\n")]))
+
+    def _below_names(self, block: bytes) -> bytes:
+        """The block without a line of names at its top, which would keep it from being a table."""
+        assert self.form is not None
+        end = block.index(b"\n") + 1
+        return block[end:] if self.form.is_header(decoded(block[:end])) else block
+
+    def _begin(self) -> bool:
+        """Recognise the first lines; whether that was possible."""
+        every = map(decoded, io.BytesIO(self.pending))
+        lines = list(islice((line for line in every if not is_aside(line)), 2))
+        form = recognised(lines, self.settings.separator, self.settings.names)
+        if form is None:
+            return False
+        self._prepare(form, find_stamps(first_cells(form, lines), self.settings.time))
+        return True
+
+    def _prepare(self, form: Form, stamps: Stamps | None) -> None:
+        """Make all that depends on the columns."""
+        own = self.settings
+        self.form, self.stamps = form, stamps
+        model: Model = make_model(form, own.formula, own.output, own.input, own.arx, own.offset)
+        self.model = model
+        names = field_names.chosen(self.fields, stamps is not None, own.rule == "auto")
+        self.learner = Learner(
+            len(model.regressors),
+            len(model.outputs),
+            model.constant,
+            own.rule,
+            own.gate,
+            own.initial_covariance,
+            own.dtype,
+            "standard_errors" in names,
+            field_names.wanted(names),
+        )
+        bank = self.learner.estimator if in_bank(self.learner.estimator) else None
+        members = 0 if bank is None else len(bank.members)
+        described = field_names.described(names, model.outputs, model.regressors, members)
+        self.parser = Parser(form, model.columns, stamps, list(own.missing))
+        self.clock = StreamClock(stamps, own.gap)
+        self.watch = Watch(model.regressors, len(model.outputs))
+        self.writer = Writer(self.to, described)
+
+    def _take(self, block: bytes, made: Output) -> None:
+        rows = self.parser.read(block)
+        if not len(rows):
+            return
+        marks = self.clock.mark(rows)
+        phi, y = self._samples(rows, marks)
+        found, moved, target = self.learner.take(phi, y)
+        first = self.tally.rows + 1
+        alarms = self.watch.take(moved, target, found.others["windup"])
+        self._count(rows, marks, found)
+        lines = self.writer.lines(first, rows, y, found, reasons(rows, marks))
+        made.lines += lines if self.to == "csv" else with_alarms(lines, alarms, first)
+        made.batches.append(Batch(first, rows, y, found, alarms))
+
+    def _samples(self, rows: Rows, marks: Marks) -> tuple[Array, Array]:
+        """Regressors and outputs; a repeated row has none, and no lag sees it."""
+        if not marks.repeated.any():
+            return self.model.samples(rows.values, marks.gap)
+        new = ~marks.repeated
+        phi = np.full((len(rows), len(self.model.regressors)), np.nan)
+        y = np.full((len(rows), len(self.model.outputs)), np.nan)
+        if new.any():
+            phi[new], y[new] = self.model.samples(rows.values[new], marks.gap[new])
+        return phi, y
+
+    def _count(self, rows: Rows, marks: Marks, found: Estimates) -> None:
+        tally = self.tally
+        tally.rows += len(rows)
+        tally.used += int((found.skipped == USED).sum())
+        tally.malformed += int(rows.malformed.sum())
+        tally.late += int(marks.late.sum())
+        tally.repeated += int(marks.repeated.sum())
+        tally.gaps += int(marks.gap.sum())
+        told = rows.malformed | marks.repeated
+        tally.missing += int(((found.skipped == MISSING) & ~told).sum())
+
+    def state(self) -> dict[str, Any] | None:
+        """All that the next line needs; None before the first row."""
+        if self.form is None:
+            return None
+        return {
+            "settings": self.settings.as_data(),
+            "form": self.form.state(),
+            "stamps": None if self.stamps is None else self.stamps.state(),
+            "position": self.position.state(),
+            "tally": self.tally.state(),
+            "clock": self.clock.state(),
+            "lags": self.model.state(),
+            "learner": self.learner.state(),
+            "watch": self.watch.state(),
+        }
+
+    def restore(self, state: dict[str, Any]) -> None:
+        """Go on from a saved state, bit for bit.
+
+        Raises
+        ------
+        RecordError
+            When the saved estimator is another one.
+        """
+        stamps = None if state["stamps"] is None else Stamps(**state["stamps"])
+        self._prepare(Form.restored(state["form"]), stamps)
+        self.position = Position.restored(state["position"])
+        self.tally = Tally(**state["tally"])
+        self.clock.restore(state["clock"])
+        self.model.restore(state["lags"])
+        self.learner.restore(state["learner"])
+        self.watch.restore(state["watch"])
+
+
+def reasons(rows: Rows, marks: Marks) -> dict[int, str]:
+    """Why rows were left out before the estimator saw them."""
+    told = dict.fromkeys(np.flatnonzero(rows.malformed).tolist(), "malformed")
+    return told | dict.fromkeys(np.flatnonzero(marks.repeated).tolist(), "repeated")

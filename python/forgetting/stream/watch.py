@@ -1,0 +1,162 @@
+"""Alarms: windup, parameters that nothing excites, and changes, each when it begins and ends.
+
+- windup: what the estimator itself reports of each row (`forgetting.Update.windup`).
+- unexcited: a monitored estimator of 100 samples' memory, with subspace forgetting, runs on the
+  same rows; its monitor says which parameters nothing has informed for two of its blocks.
+- change: the rate of that estimator is an F-test (Mohseni and Bernstein 2022): the errors of the
+  last 10 rows are larger than those of the last 100 by more than chance allows.
+
+None of them depends on units, nor on how lines are grouped.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+import forgetting as fg
+
+Array = NDArray[np.float64]
+
+FACTOR = 0.99
+SHORT, LONG = 10, 100
+"""Rows of the two windows of the F-test."""
+SIGNIFICANCE = 1e-6
+"""A false alarm in about a million rows of independent, normal errors."""
+EVERY = 50
+"""Rows after which the monitor is asked; the block of 100 samples' memory."""
+
+
+@dataclass(frozen=True)
+class Alarm:
+    """Something begins or ends.
+
+    Attributes
+    ----------
+    kind : str
+        "windup", "unexcited" or "change".
+    begins : bool
+    row : int
+        Counted from 1, in the whole stream.
+    parameter : str or None
+        The parameter that nothing excites.
+    """
+
+    kind: str
+    begins: bool
+    row: int
+    parameter: str | None = None
+
+    def to_dict(self) -> dict[str, Any]:
+        """As JSON shows it."""
+        told = {"alarm": self.kind, "state": "begins" if self.begins else "ends", "row": self.row}
+        return told if self.parameter is None else told | {"parameter": self.parameter}
+
+    def line(self) -> bytes:
+        """As a line of JSON."""
+        return json.dumps(self.to_dict(), ensure_ascii=False).encode() + b"\n"
+
+    def __str__(self) -> str:
+        of = f" of {self.parameter}" if self.parameter is not None else ""
+        return f"alarm: {self.kind}{of} {'begins' if self.begins else 'ends'} at row {self.row}"
+
+
+class Watch:
+    """Looks at every row beside the estimator."""
+
+    def __init__(self, names: Sequence[str], outputs: int) -> None:
+        self.names = tuple(names)
+        test = fg.FTest(
+            short_window=SHORT,
+            long_window=max(LONG, outputs + SHORT),
+            significance=SIGNIFICANCE,
+            largest=FACTOR,
+        )
+        self.beside = fg.RLS(len(self.names), rule=fg.Subspace(test), targets=outputs, monitor=True)
+        self.rows = 0
+        self.winding_up = False
+        self.silent: set[str] = set()
+        self.changing = False
+        self.steady = 0
+        """Rows since the test last found a change."""
+
+    def take(self, phi: Array, y: Array, windup: NDArray[np.bool_]) -> list[Alarm]:
+        """Take rows, in the order of time; what begins or ends in them, in that order."""
+        found = list(self._windup(windup))
+        target = y if y.shape[1] > 1 else y[:, 0]
+        at = 0
+        while at < len(phi):
+            stop = min(at + EVERY - (self.rows + at) % EVERY, len(phi))
+            found += self._piece(phi[at:stop], target[at:stop], at)
+            at = stop
+        self.rows += len(phi)
+        return sorted(found, key=lambda alarm: alarm.row)
+
+    def _windup(self, flags: NDArray[np.bool_]) -> Iterator[Alarm]:
+        before = np.concatenate([[self.winding_up], flags[:-1]])
+        for place in np.flatnonzero(flags != before).tolist():
+            yield Alarm("windup", bool(flags[place]), self.rows + place + 1)
+        if len(flags):
+            self.winding_up = bool(flags[-1])
+
+    def _piece(self, phi: Array, y: Array, at: int) -> Iterator[Alarm]:
+        outputs = ("forgetting_factor", "skipped")
+        run = self.beside.run(phi, y, outputs=outputs, missing="skip")
+        assert run.forgetting_factor is not None and run.skipped is not None
+        changed = (run.forgetting_factor < FACTOR) & (run.skipped == 0)
+        yield from self._changes(changed, self.rows + at + 1)
+        row = self.rows + at + len(phi)
+        if row % EVERY == 0:
+            yield from self._excitation(row)
+
+    def _changes(self, changed: NDArray[np.bool_], first: int) -> Iterator[Alarm]:
+        if not self.changing and not changed.any():
+            return
+        for place, now in enumerate(changed.tolist()):
+            self.steady = 0 if now else self.steady + 1
+            if now and not self.changing:
+                self.changing = True
+                yield Alarm("change", True, first + place)
+            elif self.changing and self.steady == LONG:
+                self.changing = False
+                yield Alarm("change", False, first + place)
+
+    def _excitation(self, row: int) -> Iterator[Alarm]:
+        watched = self.beside.watched()
+        assert watched is not None
+        quiet = watched["since_excited"] >= 2 * watched["block"]
+        for name, silent in zip(self.names, quiet.tolist(), strict=True):
+            if silent == (name in self.silent):
+                continue
+            (self.silent.add if silent else self.silent.remove)(name)
+            yield Alarm("unexcited", silent, row, name)
+
+    def active(self) -> list[str]:
+        """What has begun and not ended, in words."""
+        words = ["windup"] if self.winding_up else []
+        words += ["change"] if self.changing else []
+        return words + [f"unexcited {name}" for name in self.names if name in self.silent]
+
+    def state(self) -> dict[str, Any]:
+        """As `restore` takes it."""
+        return {
+            "beside": base64.b64encode(self.beside.to_bytes()).decode(),
+            "rows": self.rows,
+            "winding_up": self.winding_up,
+            "silent": sorted(self.silent),
+            "changing": self.changing,
+            "steady": self.steady,
+        }
+
+    def restore(self, state: dict[str, Any]) -> None:
+        """Go on from a saved state."""
+        self.beside = fg.RLS.from_bytes(base64.b64decode(state["beside"]))
+        self.rows, self.winding_up = state["rows"], state["winding_up"]
+        self.silent = set(state["silent"])
+        self.changing, self.steady = state["changing"], state["steady"]
