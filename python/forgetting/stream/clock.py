@@ -12,13 +12,10 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from forgetting.record.clock.clock import GAP, SLACK
-from forgetting.stream.rows import Array, Rows
+from forgetting.stream.rows import Array, Flags, Rows
 from forgetting.stream.stamps import Stamps
-
-Flags = NDArray[np.bool_]
 
 WINDOW = 101
 """Steps whose median is the usual one."""

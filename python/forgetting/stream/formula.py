@@ -22,7 +22,8 @@ from forgetting.record.regression import (
 )
 from forgetting.record.terms import shortened
 from forgetting.stream.form import Form
-from forgetting.stream.model import Array, Flags, History
+from forgetting.stream.history import History
+from forgetting.stream.rows import Array, Flags
 from forgetting.words.errors import RecordError
 
 ROW_BY_ROW = frozenset(("lag", "I", "Q", "log", "log10", "log2", "exp", "exp10", "exp2", "abs"))

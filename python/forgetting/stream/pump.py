@@ -14,9 +14,10 @@ from types import FrameType
 from typing import Any
 
 from forgetting.stream.inputs import Chunk, Input
+from forgetting.stream.output import Output
 from forgetting.stream.position import Replay
 from forgetting.stream.state import check_settings, load, save
-from forgetting.stream.stream import Output, Stream
+from forgetting.stream.stream import Stream
 from forgetting.stream.tally import Teller
 
 WAIT = 0.25

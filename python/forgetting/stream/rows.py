@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from forgetting.stream.stamps import Stamps
 
 Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -35,8 +36,8 @@ class Rows:
 
     values: Array
     ticks: NDArray[Any]
-    timed: NDArray[np.bool_]
-    malformed: NDArray[np.bool_]
+    timed: Flags
+    malformed: Flags
     texts: Sequence[str | None] | None = None
 
     def __len__(self) -> int:
