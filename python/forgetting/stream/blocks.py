@@ -17,7 +17,7 @@ MOST = 8192
 
 def decoded(line: bytes) -> str:
     """A line as text; what is none becomes �."""
-    return line.decode("utf-8", errors="replace").removeprefix("\ufeff")
+    return line.decode("utf-8", errors="replace")
 
 
 def pieces(block: bytes, most: int = MOST) -> Iterator[bytes]:

@@ -61,6 +61,8 @@ class Form:
     def check_first(self, line: str) -> None:
         """Refuse the first line of a further input when it holds other names.
 
+        Words alone are names when one of them is, or when they are as many; else they are rubbish.
+
         Raises
         ------
         RecordError
@@ -68,8 +70,9 @@ class Form:
         """
         if self.kind == "json" or self.is_header(line) or is_aside(line):
             return
-        found = [cells.kind(cell) for cell in split(line, self.separator)]
-        if found and all(kind == "text" for kind in found):
+        row = split(line, self.separator)
+        words = all(cells.kind(cell) == "text" for cell in row)
+        if words and (set(row) & set(self.names) or len(row) == len(self.names) > 1):
             raise RecordError(
                 f"the input begins with {line.strip()[:200]!r}, but the columns so far are "
                 f"{', '.join(map(repr, self.names))}"

@@ -18,9 +18,9 @@ import forgetting as fg
 from forgetting.record.identify import estimator_for
 from forgetting.record.origin import weighted_sum
 from forgetting.record.trace import USED
+from forgetting.stream.rows import Array, Flags
+from forgetting.stream.running import run_all
 from forgetting.words.errors import RecordError
-
-Array = NDArray[np.float64]
 
 ROOM = 4_000_000
 """Numbers that the covariances of one run may be."""
@@ -39,6 +39,8 @@ class Estimates:
     noise_variance : ndarray, shape (T, m)
     skipped : ndarray of uint8, shape (T,)
         See `forgetting.SKIPPED`.
+    refused : ndarray of bool, shape (T,)
+        Rows that were left out because they would have left the range of numbers.
     others : dict of str to ndarray
         Further outputs of the estimator's `run`, by name.
     """
@@ -49,6 +51,7 @@ class Estimates:
     standard_errors: Array | None
     noise_variance: Array
     skipped: NDArray[np.uint8]
+    refused: Flags
     others: dict[str, NDArray[Any]]
 
 
@@ -89,22 +92,18 @@ class Learner:
         self.phi0: Array | None = None
         self.y0 = np.zeros(outputs)
         self.used = 0
+        self.reason = ""
+        """What was said of the first refused row since it was last taken."""
         self.total = np.zeros(outputs)
         """Sum of e² / (1 + leverage) over the used samples but the first n."""
 
     def take(self, phi: Array, y: Array) -> tuple[Estimates, Array, Array]:
-        """Learn from rows; also the rows as they were measured from the origin.
-
-        Raises
-        ------
-        forgetting.NumericalRange
-            When a rule without a bounded covariance ran out of the range of numbers.
-        """
+        """Learn from rows; also the rows as they were measured from the origin."""
         start = self._find_origin(phi, y)
         moved = phi if self.phi0 is None else phi - self.phi0
         target = y if self.phi0 is None else y - self.y0
         pieces = [self._run(moved[each], target[each]) for each in self._slices(len(phi))]
-        found = {key: np.concatenate([piece[key] for piece in pieces]) for key in pieces[0]}
+        found = {key: np.concatenate([each[key] for each in pieces]) for key in pieces[0]}
         return self._estimates(found, y, start), moved, target
 
     def _find_origin(self, phi: Array, y: Array) -> int:
@@ -128,22 +127,16 @@ class Learner:
         return self.wants_errors and self.constant is not None
 
     def _run(self, phi: Array, y: Array) -> dict[str, Any]:
-        dtype = np.dtype(self.estimator.dtype)
         wanted = ["theta", "error", "leverage", "skipped", "windup", *self.also]
         if self.wants_errors:
             wanted.append("covariance" if self._needs_covariance else "variance")
-        target = y if self.m > 1 else y[:, 0]
-        run = self.estimator.run(
-            np.ascontiguousarray(phi, dtype=dtype),
-            np.ascontiguousarray(target, dtype=dtype),
-            outputs=tuple(dict.fromkeys(wanted)),
-            missing="skip",
-        )
-        found = {name: getattr(run, name) for name in wanted}
-        return {
+        brought = run_all(self.estimator, phi, y, tuple(dict.fromkeys(wanted)))
+        self.reason = self.reason or brought.reason
+        found = {
             name: values.astype(np.float64) if values.dtype.kind == "f" else values
-            for name, values in found.items()
+            for name, values in brought.outputs.items()
         }
+        return found | {"refused": brought.refused}
 
     def _estimates(self, found: dict[str, Any], y: Array, start: int) -> Estimates:
         total = len(y)
@@ -156,7 +149,9 @@ class Learner:
         if self.phi0 is not None:
             theta[start:, self.constant] += self.y0 - weighted_sum(self.phi0, theta[start:])
         others = {name: found[name] for name in (*self.also, "windup")}
-        return Estimates(theta, error, y - error, errors, noise, found["skipped"], others)
+        return Estimates(
+            theta, error, y - error, errors, noise, found["skipped"], found["refused"], others
+        )
 
     def _variance(self, found: dict[str, Any]) -> Array:
         """Diagonal of P for the regressors as they are, (T, n)."""

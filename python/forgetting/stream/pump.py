@@ -164,10 +164,8 @@ class Pump:
                 self.tell(str(alarm))
         for watcher in self.watchers:
             watcher(made)
-        if self.stream.form is not None and self.teller.look(
-            self.stream.tally, self.stream.parser.example
-        ):
-            self.stream.parser.example = ""
+        if self.teller.look(self.stream.tally, self.stream.example):
+            self.stream.forget_example()
 
     def _end(self) -> None:
         """The last line need not end."""

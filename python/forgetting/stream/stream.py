@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from codecs import BOM_UTF8
 from itertools import islice
 from typing import Any
 
@@ -53,8 +54,8 @@ class Stream:
         self.form: Form | None = None
         self.stamps: Stamps | None = None
         self.pending = b""
-        self.begins = False
-        """Whether the next line is the first of a further input."""
+        self.begins = True
+        """Whether the next line is the first of an input."""
         self.header_due = to == "csv"
 
     def feed(self, block: bytes) -> Output:
@@ -64,19 +65,20 @@ class Stream:
         ------
         RecordError
             When the first lines hold no table, or not the columns of the model.
-        forgetting.NumericalRange
-            When a rule without a bounded covariance ran out of the range of numbers.
         """
         self.position.advance(block)
         if not block.endswith(b"\n"):
             block += b"\n"
+        if self.begins:
+            block = block.removeprefix(BOM_UTF8)
         if self.form is None:
             self.pending += block
             if not self._begin():
                 return Output()
             block, self.pending = self.pending, b""
-        if self.begins:
-            self._check_first(block)
+        elif self.begins:
+            self.form.check_first(decoded(block[: block.index(b"\n")]))
+        self.begins = False
         made = Output()
         block = self._below_names(block)
         if self.header_due:
@@ -90,11 +92,6 @@ class Stream:
         """Begin with another input, such as a file that took the place of the one before."""
         self.position.restart()
         self.begins = True
-
-    def _check_first(self, block: bytes) -> None:
-        assert self.form is not None
-        self.begins = False
-        self.form.check_first(decoded(block[: block.index(b"\n")]))
 
     def _below_names(self, block: bytes) -> bytes:
         """The block without a line of names at its top, which would keep it from being a table."""
@@ -148,7 +145,7 @@ class Stream:
         first = self.tally.rows + 1
         alarms = self.watch.take(moved, target, found.others["windup"])
         self._count(rows, marks, found)
-        lines = self.writer.lines(first, rows, y, found, reasons(rows, marks))
+        lines = self.writer.lines(first, rows, y, found, reasons(rows, marks, found))
         made.lines += lines if self.to == "csv" else with_alarms(lines, alarms, first)
         made.batches.append(Batch(first, rows, y, found, alarms))
 
@@ -171,8 +168,18 @@ class Stream:
         tally.late += int(marks.late.sum())
         tally.repeated += int(marks.repeated.sum())
         tally.gaps += int(marks.gap.sum())
-        told = rows.malformed | marks.repeated
+        tally.out_of_range += int(found.refused.sum())
+        told = rows.malformed | marks.repeated | found.refused
         tally.missing += int(((found.skipped == MISSING) & ~told).sum())
+
+    @property
+    def example(self) -> str:
+        """What is wrong with the first line at fault since `forget_example`, in words."""
+        return "" if self.form is None else self.parser.example or self.learner.reason
+
+    def forget_example(self) -> None:
+        """Make room for the next one."""
+        self.parser.example = self.learner.reason = ""
 
     def state(self) -> dict[str, Any] | None:
         """All that the next line needs; None before the first row."""
@@ -208,7 +215,13 @@ class Stream:
         self.watch.restore(state["watch"])
 
 
-def reasons(rows: Rows, marks: Marks) -> dict[int, str]:
-    """Why rows were left out before the estimator saw them."""
-    told = dict.fromkeys(np.flatnonzero(rows.malformed).tolist(), "malformed")
-    return told | dict.fromkeys(np.flatnonzero(marks.repeated).tolist(), "repeated")
+def reasons(rows: Rows, marks: Marks, found: Estimates) -> dict[int, str]:
+    """Why rows were left out that the estimator was not asked about, or refused."""
+    told: dict[int, str] = {}
+    for flags, word in (
+        (found.refused, "out_of_range"),
+        (rows.malformed, "malformed"),
+        (marks.repeated, "repeated"),
+    ):
+        told |= dict.fromkeys(np.flatnonzero(flags).tolist(), word)
+    return told

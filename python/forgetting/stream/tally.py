@@ -9,7 +9,8 @@ from typing import Any
 
 QUIET = 10.0
 """Seconds between two sentences while faults go on."""
-FAULTS = ("malformed", "late", "repeated", "missing")
+TOLD = ("malformed", "late", "repeated", "out_of_range")
+"""Faults that are told while the stream runs."""
 
 
 @dataclass
@@ -25,6 +26,8 @@ class Tally:
     malformed, late, repeated : int
         Lines that could not be read; whose time is before that of the line before; whose time and
         values are those of the line before.
+    out_of_range : int
+        Rows that would have left the range of numbers, and were left out.
     missing : int
         Well-formed rows in which a value was missing, or a lag that reaches before the stream or
         across a gap.
@@ -36,6 +39,7 @@ class Tally:
     malformed: int = 0
     late: int = 0
     repeated: int = 0
+    out_of_range: int = 0
     missing: int = 0
     gaps: int = 0
 
@@ -44,9 +48,14 @@ class Tally:
         return asdict(self)
 
     def __str__(self) -> str:
-        faults = ", ".join(f"{getattr(self, name)} {name}" for name in FAULTS)
+        faults = ", ".join(f"{getattr(self, name)} {words(name)}" for name in (*TOLD, "missing"))
         gaps = f"{self.gaps} gap{'s' * (self.gaps != 1)}"
         return f"{self.rows} rows: {self.used} used, {faults}; {gaps}"
+
+
+def words(name: str) -> str:
+    """A count's name in words."""
+    return name.replace("_", " ")
 
 
 class Teller:
@@ -66,8 +75,8 @@ class Teller:
     def look(self, tally: Tally, example: str) -> bool:
         """Say what is new, if it is time to; whether something was said."""
         news = [
-            f"{getattr(tally, name) - getattr(self.told, name)} {name}"
-            for name in ("malformed", "late", "repeated")
+            f"{getattr(tally, name) - getattr(self.told, name)} {words(name)}"
+            for name in TOLD
             if getattr(tally, name) > getattr(self.told, name)
         ]
         now = time.monotonic()

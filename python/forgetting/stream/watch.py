@@ -18,11 +18,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 import forgetting as fg
-
-Array = NDArray[np.float64]
+from forgetting.record.trace import USED
+from forgetting.stream.rows import Array, Flags
+from forgetting.stream.running import run_all
 
 FACTOR = 0.99
 SHORT, LONG = 10, 100
@@ -84,21 +84,20 @@ class Watch:
         self.silent: set[str] = set()
         self.changing = False
         self.steady = 0
-        """Rows since the test last found a change."""
+        """Rows since the test last found a change, while one goes on."""
 
-    def take(self, phi: Array, y: Array, windup: NDArray[np.bool_]) -> list[Alarm]:
+    def take(self, phi: Array, y: Array, windup: Flags) -> list[Alarm]:
         """Take rows, in the order of time; what begins or ends in them, in that order."""
         found = list(self._windup(windup))
-        target = y if y.shape[1] > 1 else y[:, 0]
         at = 0
         while at < len(phi):
             stop = min(at + EVERY - (self.rows + at) % EVERY, len(phi))
-            found += self._piece(phi[at:stop], target[at:stop], at)
+            found += self._piece(phi[at:stop], y[at:stop], at)
             at = stop
         self.rows += len(phi)
         return sorted(found, key=lambda alarm: alarm.row)
 
-    def _windup(self, flags: NDArray[np.bool_]) -> Iterator[Alarm]:
+    def _windup(self, flags: Flags) -> Iterator[Alarm]:
         before = np.concatenate([[self.winding_up], flags[:-1]])
         for place in np.flatnonzero(flags != before).tolist():
             yield Alarm("windup", bool(flags[place]), self.rows + place + 1)
@@ -106,26 +105,27 @@ class Watch:
             self.winding_up = bool(flags[-1])
 
     def _piece(self, phi: Array, y: Array, at: int) -> Iterator[Alarm]:
-        outputs = ("forgetting_factor", "skipped")
-        run = self.beside.run(phi, y, outputs=outputs, missing="skip")
-        assert run.forgetting_factor is not None and run.skipped is not None
-        changed = (run.forgetting_factor < FACTOR) & (run.skipped == 0)
+        brought = run_all(self.beside, phi, y, ("forgetting_factor", "skipped")).outputs
+        changed = (brought["forgetting_factor"] < FACTOR) & (brought["skipped"] == USED)
         yield from self._changes(changed, self.rows + at + 1)
         row = self.rows + at + len(phi)
         if row % EVERY == 0:
             yield from self._excitation(row)
 
-    def _changes(self, changed: NDArray[np.bool_], first: int) -> Iterator[Alarm]:
+    def _changes(self, changed: Flags, first: int) -> Iterator[Alarm]:
         if not self.changing and not changed.any():
             return
         for place, now in enumerate(changed.tolist()):
-            self.steady = 0 if now else self.steady + 1
-            if now and not self.changing:
-                self.changing = True
-                yield Alarm("change", True, first + place)
-            elif self.changing and self.steady == LONG:
-                self.changing = False
-                yield Alarm("change", False, first + place)
+            if now:
+                self.steady = 0
+                if not self.changing:
+                    self.changing = True
+                    yield Alarm("change", True, first + place)
+            elif self.changing:
+                self.steady += 1
+                if self.steady == LONG:
+                    self.changing, self.steady = False, 0
+                    yield Alarm("change", False, first + place)
 
     def _excitation(self, row: int) -> Iterator[Alarm]:
         watched = self.beside.watched()

@@ -1,0 +1,76 @@
+"""Rows through an estimator that may refuse some: these are left out, and the others go on."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+import forgetting as fg
+from forgetting.stream.rows import Array, Flags
+
+SAMPLE = re.compile(r"\bsample (\d+): ")
+
+
+@dataclass(frozen=True)
+class Brought:
+    """What rows brought.
+
+    Attributes
+    ----------
+    outputs : dict of str to ndarray
+        Outputs of `run` by name, one entry per row.
+    refused : ndarray of bool, shape (T,)
+        Rows that the estimator cannot take without leaving the range of numbers; they count as
+        missing.
+    reason : str
+        What it says of the first of them.
+    """
+
+    outputs: dict[str, NDArray[Any]]
+    refused: Flags
+    reason: str = ""
+
+
+def run_all(estimator: Any, phi: Array, y: Array, names: tuple[str, ...]) -> Brought:
+    """Run over (T, n) regressors and (T, m) outputs, NaN where something is missing.
+
+    Examples
+    --------
+    >>> est = fg.RLS(1)
+    >>> run_all(est, np.array([[1.0], [1e200], [1.0]]), np.ones((3, 1)), ("error",)).refused
+    array([False,  True, False])
+    """
+    dtype = np.dtype(estimator.dtype)
+    target = y if y.shape[1] > 1 else y[:, 0]
+    # What float32 cannot hold becomes infinite, and is refused with the rest.
+    with np.errstate(over="ignore"):
+        phi = np.ascontiguousarray(phi, dtype=dtype)
+        target = np.ascontiguousarray(target, dtype=dtype)
+    both = np.column_stack([phi, target])
+    refused: Flags = np.asarray(np.isinf(both).any(axis=1))
+    if refused.any():
+        phi = np.where(refused[:, None], np.nan, phi)
+        target = np.where(refused if target.ndim == 1 else refused[:, None], np.nan, target)
+    reason = "a value is out of the range of numbers" if refused.any() else ""
+    pieces, at, size = [], 0, len(phi)
+    while at < len(phi):
+        stop = min(at + size, len(phi))
+        try:
+            run = estimator.run(phi[at:stop], target[at:stop], outputs=names, missing="skip")
+        except fg.NumericalRange as error:
+            place = SAMPLE.search(str(error))
+            if place is None:
+                raise
+            wrong = at + int(place[1])
+            refused[wrong], reason = True, reason or str(error)[place.end() :]
+            phi = phi.copy()
+            phi[wrong], size = np.nan, wrong + 1 - at
+            continue
+        pieces.append(run)
+        at, size = stop, 2 * size
+    outputs = {name: np.concatenate([getattr(run, name) for run in pieces]) for name in names}
+    return Brought(outputs, refused, reason)
