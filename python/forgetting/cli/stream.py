@@ -86,7 +86,8 @@ def stream(
         ),
     ] = None,
     save_every: Annotated[
-        int, options.option(STATE, "Rows after which to save, at the latest.", "--save-every")
+        int,
+        options.option(STATE, "Rows after which to save, and every two seconds.", "--save-every"),
     ] = 1000,
 ) -> None:
     """Follow a sensor: one line of estimates for every line that comes.

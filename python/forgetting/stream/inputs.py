@@ -11,7 +11,7 @@ from typing import Any, Protocol
 
 from forgetting.stream.position import Position
 
-MOST = 1 << 20
+MOST = 1 << 18
 """Bytes taken in one go."""
 LOOK = 0.2
 """Seconds between two looks at a file that does not grow."""

@@ -22,8 +22,9 @@ from forgetting.stream.tally import Teller
 
 WAIT = 0.25
 """Seconds between two looks at signals and clocks while nothing comes."""
-SECONDS = 2.0
-"""Rows that came are in the state after so long at the latest, while the input is read."""
+LEAST, MOST = 0.25, 2.0
+"""Seconds between two saves: at least so many, for the sake of the disk, and at most so many while
+rows come."""
 STOPS = (signal.SIGTERM, signal.SIGINT)
 
 
@@ -67,7 +68,8 @@ class Pump:
     state : Path, optional
         Where to save.
     every : int
-        Rows after which the state is saved, at the latest.
+        Rows after which the state is saved, though not before `LEAST` seconds have gone by; after
+        `MOST` seconds fewer rows are enough.
     watchers : sequence of callable
         Called with what every block brought.
     """
@@ -90,15 +92,18 @@ class Pump:
         self.replay: Replay | None = None
 
     def resume(self) -> None:
-        """Go on from the saved state, if there is one.
+        """Go on from the saved state, if there is one; end a line that a kill has torn.
 
         Raises
         ------
         RecordError
             When the state is none, was altered, or belongs to other settings.
         """
-        state = None if self.path is None else load(self.path)
-        if state is None or self.path is None:
+        if self.path is None:
+            return
+        state = load(self.path)
+        if state is None:
+            end_torn_line(self.descriptor)
             return
         check_settings(self.path, state["settings"], self.stream.settings.as_data())
         self.stream.restore(state)
@@ -106,10 +111,10 @@ class Pump:
         self.teller.told = type(self.stream.tally)(**self.stream.tally.state())
         found = self.source.resume(self.stream.position, state["input"])
         self.tell(f"goes on after row {self.saved_rows} of {self.path}")
+        end_torn_line(self.descriptor)
         if not found:
             self.replay = Replay(self.stream.position)
         self.stream.header_due = False
-        end_torn_line(self.descriptor)
 
     def run(self) -> None:
         """Read to the end, or until a signal comes."""
@@ -174,8 +179,8 @@ class Pump:
 
     def _save_if_due(self) -> None:
         new = self.stream.tally.rows - self.saved_rows
-        late = time.monotonic() - self.saved_at > SECONDS
-        if new >= self.every or (new and late):
+        elapsed = time.monotonic() - self.saved_at
+        if (new >= self.every and elapsed >= LEAST) or (new and elapsed >= MOST):
             self._save()
 
     def _save(self) -> None:
