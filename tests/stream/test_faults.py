@@ -202,3 +202,10 @@ def test_blocks_of_any_kind_end_in_lines():
     stream = Stream(Settings(output=("y",), input=("u",)), fields="row")
     assert stream.feed(b"u,y").lines == []
     assert stream.feed(b"1,2").lines == [b'{"row":1}\n']
+
+
+def test_differences_that_overflow_are_left_out():
+    """Measured from the first sample, the second is beyond all numbers."""
+    data = b"u,y\n1e308,1\n-1e308,2\n1e308,3\n"
+    stream = fed(data, Settings(output=("y",), input=("u",)), "skipped")
+    assert [each["skipped"] for each in rows(stream.lines)] == ["used", "out_of_range", "used"]

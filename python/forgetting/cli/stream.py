@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -15,7 +17,9 @@ from forgetting.files import check_outputs
 from forgetting.words.errors import RecordError
 
 if TYPE_CHECKING:
+    from forgetting.stream import Stream
     from forgetting.stream.inputs import Input
+    from forgetting.stream.output import Output
     from forgetting.stream.settings import Settings
 
 OUT, STATE = "What is written", "Going on after a stop"
@@ -89,6 +93,14 @@ def stream(
         int,
         options.option(STATE, "Rows after which to save, and every two seconds.", "--save-every"),
     ] = 1000,
+    live: Annotated[
+        bool,
+        options.option(OUT, "Show the stream on a page of this machine as it goes.", "--live"),
+    ] = False,
+    port: Annotated[
+        int | None,
+        options.option(OUT, "Port of that page, 8470 when absent; 0 for any.", "--port"),
+    ] = None,
 ) -> None:
     """Follow a sensor: one line of estimates for every line that comes.
 
@@ -116,12 +128,35 @@ def stream(
         names=names,
     )
     lines = opened(source, follow)
+    made = Stream(told, to, fields, standard_errors=live)
     try:
-        pump = Pump(Stream(told, to, fields), lines, sys.stdout.fileno(), tell, state, save_every)
-        pump.resume()
-        pump.run()
+        with page(made, live, port) as watchers:
+            pump = Pump(made, lines, sys.stdout.fileno(), tell, state, save_every, watchers)
+            pump.resume()
+            pump.run()
     finally:
         lines.close()
+
+
+@contextmanager
+def page(stream: Stream, live: bool, port: int | None) -> Iterator[list[Callable[[Output], None]]]:
+    """Serve the page while the block runs; yield what must be told of every block of lines."""
+    if not live:
+        if port is not None:
+            raise RecordError("--port is that of the page of --live, which is not asked for")
+        yield []
+        return
+    from forgetting.stream.live import Events, Server
+
+    if port is not None and not 0 <= port <= 65535:
+        raise RecordError(f"--port is {port}; it must be from 0 to 65535")
+    server = Server(Events(stream)) if port is None else Server(Events(stream), port)
+    server.start()
+    tell(f"live at {server.address}")
+    try:
+        yield [server.events.take]
+    finally:
+        server.stop()
 
 
 def made_settings(

@@ -100,8 +100,10 @@ class Learner:
     def take(self, phi: Array, y: Array) -> tuple[Estimates, Array, Array]:
         """Learn from rows; also the rows as they were measured from the origin."""
         start = self._find_origin(phi, y)
-        moved = phi if self.phi0 is None else phi - self.phi0
-        target = y if self.phi0 is None else y - self.y0
+        # A difference of very large numbers is infinite, and refused like they are.
+        with np.errstate(over="ignore"):
+            moved = phi if self.phi0 is None else phi - self.phi0
+            target = y if self.phi0 is None else y - self.y0
         pieces = [self._run(moved[each], target[each]) for each in self._slices(len(phi))]
         found = {key: np.concatenate([each[key] for each in pieces]) for key in pieces[0]}
         return self._estimates(found, y, start), moved, target

@@ -45,29 +45,36 @@ def run_all(estimator: Any, phi: Array, y: Array, names: tuple[str, ...]) -> Bro
     array([False,  True, False])
     """
     dtype = np.dtype(estimator.dtype)
-    target = y if y.shape[1] > 1 else y[:, 0]
     # What float32 cannot hold becomes infinite, and is refused with the rest.
     with np.errstate(over="ignore"):
         phi = np.ascontiguousarray(phi, dtype=dtype)
-        target = np.ascontiguousarray(target, dtype=dtype)
-    both = np.column_stack([phi, target])
-    refused: Flags = np.asarray(np.isinf(both).any(axis=1))
-    if refused.any():
-        phi = np.where(refused[:, None], np.nan, phi)
-        target = np.where(refused if target.ndim == 1 else refused[:, None], np.nan, target)
-    reason = "a value is out of the range of numbers" if refused.any() else ""
+        target = np.ascontiguousarray(y if y.shape[1] > 1 else y[:, 0], dtype=dtype)
+    try:
+        run = estimator.run(phi, target, outputs=names, missing="skip")
+    except (fg.NumericalRange, fg.InvalidInput):
+        return run_some(estimator, phi, target, names)
+    outputs = {name: getattr(run, name) for name in names}
+    return Brought(outputs, np.zeros(len(phi), dtype=bool))
+
+
+def run_some(estimator: Any, phi: Array, y: Array, names: tuple[str, ...]) -> Brought:
+    """The same, where some row is refused: piece by piece, without those."""
+    infinite = np.isinf(np.column_stack([phi, y]))
+    refused: Flags = np.asarray(infinite.any(axis=1))
+    phi = np.where(refused[:, None], np.nan, phi)
+    y = np.where(np.isinf(y), np.nan, y)
+    reason = "a value is beyond the range of numbers" if refused.any() else ""
     pieces, at, size = [], 0, len(phi)
     while at < len(phi):
         stop = min(at + size, len(phi))
         try:
-            run = estimator.run(phi[at:stop], target[at:stop], outputs=names, missing="skip")
+            run = estimator.run(phi[at:stop], y[at:stop], outputs=names, missing="skip")
         except fg.NumericalRange as error:
             place = SAMPLE.search(str(error))
             if place is None:
                 raise
             wrong = at + int(place[1])
             refused[wrong], reason = True, reason or str(error)[place.end() :]
-            phi = phi.copy()
             phi[wrong], size = np.nan, wrong + 1 - at
             continue
         pieces.append(run)

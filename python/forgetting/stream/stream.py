@@ -38,6 +38,8 @@ class Stream:
         "json" (an object a line; alarms are objects of their own) or "csv".
     fields : str, optional
         What is written of every row, with commas; see `forgetting.stream.fields`.
+    standard_errors : bool
+        Whether they are found also where no field needs them, for who looks from beside.
 
     Examples
     --------
@@ -47,8 +49,15 @@ class Stream:
     [b'{"row":1,"error":0.0}\\n']
     """
 
-    def __init__(self, settings: Settings, to: str = "json", fields: str | None = None) -> None:
+    def __init__(
+        self,
+        settings: Settings,
+        to: str = "json",
+        fields: str | None = None,
+        standard_errors: bool = False,
+    ) -> None:
         self.settings, self.to, self.fields = settings, to, fields
+        self.standard_errors = standard_errors
         self.position = Position()
         self.tally = Tally()
         self.form: Form | None = None
@@ -124,7 +133,7 @@ class Stream:
             own.gate,
             own.initial_covariance,
             own.dtype,
-            "standard_errors" in names,
+            self.standard_errors or "standard_errors" in names,
             field_names.wanted(names),
         )
         bank = self.learner.estimator if in_bank(self.learner.estimator) else None
