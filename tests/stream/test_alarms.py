@@ -34,18 +34,27 @@ def test_no_alarm_where_nothing_happens():
     assert [alarms(csv(table(20_000, seed))) for seed in range(3)] == [[], [], []]
 
 
-def test_a_parameter_that_nothing_excites():
-    """From row 1001 to 2000 v stands still; the others go on."""
+@pytest.mark.parametrize("level", [0.0, 0.7, 20.0])
+def test_an_input_that_stands_still(level):
+    """From row 1001 to 2000 v is constant: neither it nor the constant can be told."""
     rows = table()
-    rows[1000:2000, 2] += 3.0 * (rows[1000:2000, 1] - rows[0, 1])
-    rows[1000:2000, 1] = rows[0, 1]
+    rows[1000:2000, 2] -= 3.0 * (level - rows[1000:2000, 1])
+    rows[1000:2000, 1] = level
+    found = [each for each in alarms(csv(rows)) if each["alarm"] == "unexcited"]
+    for name in ("v(k)", "offset"):
+        begin, end = (each for each in found if each["parameter"] == name)
+        assert (begin["state"], end["state"]) == ("begins", "ends")
+        assert 1000 < begin["row"] <= 1300 and 2000 < end["row"] <= 2050
+    assert {each["parameter"] for each in found} == {"v(k)", "offset"}
+
+
+def test_two_inputs_that_go_together():
+    rows = table(4000)
+    rows[1000:3000, 2] -= 3.0 * (2.0 * rows[1000:3000, 0] - rows[1000:3000, 1])
+    rows[1000:3000, 1] = 2.0 * rows[1000:3000, 0]
     found = alarms(csv(rows))
-    assert [(each["alarm"], each["state"], each["parameter"]) for each in found] == [
-        ("unexcited", "begins", "v(k)"),
-        ("unexcited", "ends", "v(k)"),
-    ]
-    begin, end = (each["row"] for each in found)
-    assert 1100 <= begin <= 1200 and 2000 < end <= 2050
+    assert {each["parameter"] for each in found} == {"u(k)", "v(k)"}
+    assert [each["state"] for each in found] == ["begins", "begins", "ends", "ends"]
 
 
 def test_a_change():
@@ -72,14 +81,14 @@ def test_windup_of_a_rule_without_bounds():
 @pytest.mark.parametrize("factors", [(1e6, 1.0, 1.0), (1.0, 1e-9, 1e4), (1e-3, 1e3, 1e-6)])
 def test_units_change_no_alarm(factors):
     rows = table()
-    rows[1000:2000, 1] = rows[0, 1]
+    rows[1000:2000, 1] = 0.7
     rows[2500:, 2] += 5.0 * rows[2500:, 0]
     assert alarms(csv(rows * factors)) == alarms(csv(rows)) != []
 
 
 def test_grouping_changes_no_alarm():
     rows = table()
-    rows[1000:2000, 1] = rows[0, 1]
+    rows[1000:2000, 1] = 0.7
     data = csv(rows)
     from forgetting.stream import Stream
 

@@ -1,10 +1,14 @@
 """Alarms: windup, parameters that nothing excites, and changes, each when it begins and ends.
 
 - windup: what the estimator itself reports of each row (`forgetting.Update.windup`).
-- unexcited: a monitored estimator of 100 samples' memory, with subspace forgetting, runs on the
-  same rows; its monitor says which parameters nothing has informed for two of its blocks.
-- change: the rate of that estimator is an F-test (Mohseni and Bernstein 2022): the errors of the
-  last 10 rows are larger than those of the last 100 by more than chance allows.
+- unexcited: a monitored estimator that remembers 100 samples runs on the same rows. A parameter is
+  not excited when its regressor has been too small for two of the monitor's blocks, or when it
+  takes part in a direction that nothing informs: an input that stands still cannot be told from the
+  constant, nor two inputs that go together from one another. The estimator forgets towards very
+  little information, cyclically, so that P grows where nothing informs, and stays bounded.
+- change: another one, which forgets only where it is informed, has an F-test for its rate (Mohseni
+  and Bernstein 2022): the errors of the last 10 rows are larger than those of the last 100 by more
+  than chance allows.
 
 None of them depends on units, nor on how lines are grouped.
 """
@@ -31,6 +35,11 @@ SIGNIFICANCE = 1e-6
 """A false alarm in about a million rows of independent, normal errors."""
 EVERY = 50
 """Rows after which the monitor is asked; the block of 100 samples' memory."""
+LITTLE = 1e-6
+"""Information that is left where nothing informs, in units of one typical sample."""
+PART = 0.3
+"""Share of the largest part of a direction from which on a parameter takes part in it, as in
+`forgetting.Health.describe`."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +87,10 @@ class Watch:
             significance=SIGNIFICANCE,
             largest=FACTOR,
         )
-        self.beside = fg.RLS(len(self.names), rule=fg.Subspace(test), targets=outputs, monitor=True)
+        n = len(self.names)
+        self.test = fg.RLS(n, rule=fg.Subspace(test), targets=outputs)
+        gauge = fg.CyclicResetting(FACTOR, information=LITTLE)
+        self.gauge = fg.RLS(n, rule=gauge, targets=outputs, monitor=True)
         self.rows = 0
         self.winding_up = False
         self.silent: set[str] = set()
@@ -105,9 +117,10 @@ class Watch:
             self.winding_up = bool(flags[-1])
 
     def _piece(self, phi: Array, y: Array, at: int) -> Iterator[Alarm]:
-        brought = run_all(self.beside, phi, y, ("forgetting_factor", "skipped")).outputs
+        brought = run_all(self.test, phi, y, ("forgetting_factor", "skipped")).outputs
         changed = (brought["forgetting_factor"] < FACTOR) & (brought["skipped"] == USED)
         yield from self._changes(changed, self.rows + at + 1)
+        run_all(self.gauge, phi, y, ())
         row = self.rows + at + len(phi)
         if row % EVERY == 0:
             yield from self._excitation(row)
@@ -128,9 +141,12 @@ class Watch:
                     yield Alarm("change", False, first + place)
 
     def _excitation(self, row: int) -> Iterator[Alarm]:
-        watched = self.beside.watched()
+        watched = self.gauge.watched()
         assert watched is not None
         quiet = watched["since_excited"] >= 2 * watched["block"]
+        if not watched["informed"]:
+            parts = np.abs(watched["direction"]) / np.sqrt(watched["least_variances"])
+            quiet |= parts > PART * parts.max()
         for name, silent in zip(self.names, quiet.tolist(), strict=True):
             if silent == (name in self.silent):
                 continue
@@ -146,7 +162,8 @@ class Watch:
     def state(self) -> dict[str, Any]:
         """As `restore` takes it."""
         return {
-            "beside": base64.b64encode(self.beside.to_bytes()).decode(),
+            "test": base64.b64encode(self.test.to_bytes()).decode(),
+            "gauge": base64.b64encode(self.gauge.to_bytes()).decode(),
             "rows": self.rows,
             "winding_up": self.winding_up,
             "silent": sorted(self.silent),
@@ -156,7 +173,8 @@ class Watch:
 
     def restore(self, state: dict[str, Any]) -> None:
         """Go on from a saved state."""
-        self.beside = fg.RLS.from_bytes(base64.b64decode(state["beside"]))
+        self.test = fg.RLS.from_bytes(base64.b64decode(state["test"]))
+        self.gauge = fg.RLS.from_bytes(base64.b64decode(state["gauge"]))
         self.rows, self.winding_up = state["rows"], state["winding_up"]
         self.silent = set(state["silent"])
         self.changing, self.steady = state["changing"], state["steady"]

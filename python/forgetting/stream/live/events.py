@@ -96,12 +96,15 @@ class Events:
 
     def after(self, count: int, timeout: float) -> list[tuple[int, str]]:
         """Events after the first `count`, waiting for one if there is none."""
+        deadline = time.monotonic() + timeout
         with self.news:
-            self.tell()
-            if self.count <= count:
-                self.news.wait(timeout)
+            while True:
+                # A row that came too soon after an event is told by whoever waits for the next.
                 self.tell()
-            return [each for each in self.kept if each[0] > count]
+                rest = deadline - time.monotonic()
+                if self.count > count or rest <= 0:
+                    return [each for each in self.kept if each[0] > count]
+                self.news.wait(min(rest, INTERVAL))
 
     def beginning(self, first: int) -> dict[str, Any]:
         """What a page must know before event `first`: names, and the alarms told before it."""

@@ -7,7 +7,7 @@ import threading
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib.resources import files
-from typing import Any, ClassVar
+from typing import Any
 
 from forgetting.stream.live.events import Events
 from forgetting.words.errors import RecordError
@@ -75,7 +75,7 @@ class Handler(BaseHTTPRequestHandler):
             self.send_header(name, value)
 
     def _events(self) -> None:
-        if not self.server.places.acquire(blocking=False):
+        if not self.server.enter():
             self.send_error(HTTPStatus.SERVICE_UNAVAILABLE, "too many pages are open")
             return
         try:
@@ -86,7 +86,7 @@ class Handler(BaseHTTPRequestHandler):
             # The page was closed.
             pass
         finally:
-            self.server.places.release()
+            self.server.leave()
 
     def _tell(self) -> None:
         events, count, begun = self.server.events, 0, False
@@ -95,8 +95,9 @@ class Handler(BaseHTTPRequestHandler):
             if found and not begun:
                 self._write("begin", json.dumps(events.beginning(found[0][0])))
                 begun = True
-            for count, text in found:
+            for _, text in found:
                 self._write("row", text)
+            count = found[-1][0] if found else count
             if not found:
                 self.wfile.write(b": nothing new\n\n")
             self.wfile.flush()
@@ -125,11 +126,13 @@ class Server(ThreadingHTTPServer):
 
     daemon_threads = True
     block_on_close = False
-    allow_reuse_address: ClassVar[bool] = True
+    allow_reuse_address = True
 
     def __init__(self, events: Events, port: int = PORT) -> None:
         self.events = events
-        self.places = threading.BoundedSemaphore(MOST)
+        self.pages = 0
+        """Pages that listen."""
+        self.counting = threading.Lock()
         self.ended = False
         try:
             super().__init__((ADDRESS, port), Handler)
@@ -137,6 +140,19 @@ class Server(ThreadingHTTPServer):
             raise RecordError(
                 f"port {port} of this machine cannot be had: {error.strerror}; --port names another"
             ) from None
+
+    def enter(self) -> bool:
+        """Count a page that listens, unless there are too many."""
+        with self.counting:
+            if self.pages >= MOST:
+                return False
+            self.pages += 1
+            return True
+
+    def leave(self) -> None:
+        """One page less."""
+        with self.counting:
+            self.pages -= 1
 
     @property
     def address(self) -> str:
