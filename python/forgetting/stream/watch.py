@@ -72,7 +72,7 @@ class Alarm:
         return json.dumps(self.to_dict(), ensure_ascii=False).encode() + b"\n"
 
     def __str__(self) -> str:
-        of = f" of {self.parameter}" if self.parameter is not None else ""
+        of = f" {self.parameter}" if self.parameter is not None else ""
         return f"alarm: {self.kind}{of} {'begins' if self.begins else 'ends'} at row {self.row}"
 
 

@@ -21,12 +21,24 @@ function axes() {
   ];
 }
 
+// The range of most of the estimates and of a usual band: a single wild one must not flatten the others.
+function usual(estimates, high) {
+  const known = estimates.filter((value) => value !== null).sort((a, b) => a - b);
+  if (!known.length) return [0, 1];
+  const at = (sorted, share) => sorted[Math.floor(share * (sorted.length - 1))];
+  const halves = estimates.map((value, place) => high[place] - value).filter((half) => half > 0);
+  const room = halves.length ? 1.5 * at(halves.sort((a, b) => a - b), 0.5) : 0;
+  const [low, top] = [at(known, 0.02), at(known, 0.98)];
+  const spare = room + 0.05 * (top - low) || 0.05 * Math.abs(top) || 1;
+  return [low - spare, top + spare];
+}
+
 // One chart; `lines` are its series, `bands` fill between two of them.
-function chart(place, lines, take, bands) {
+function chart(place, lines, take, bands, range) {
   const options = {
     width: Math.max(place.clientWidth, 200),
     height: HEIGHT,
-    scales: { x: { time: false } },
+    scales: { x: { time: false }, y: range ? { range } : {} },
     axes: axes(),
     series: [{}, ...lines],
     bands: bands || [],
@@ -79,12 +91,13 @@ function parameter(name, place) {
     if (estimate === null || error === null) return [estimate, null, null];
     return [estimate, estimate - 2 * error, estimate + 2 * error];
   };
-  chart(spot, [line("blue"), edge(), edge()], take, [{ series: [3, 2], fill: colour("band") }]);
+  chart(spot, [line("blue"), edge(), edge()], take, [{ series: [3, 2], fill: colour("band") }], (u) =>
+    usual(u.data[1], u.data[3]));
 }
 
 function alarm(told) {
   const item = document.createElement("li");
-  const of = told.parameter ? ` of ${told.parameter}` : "";
+  const of = told.parameter ? ` ${told.parameter}` : "";
   item.textContent = `row ${told.row}: ${told.alarm}${of} ${told.state}`;
   byId("alarms").querySelectorAll(".none").forEach((each) => each.remove());
   byId("alarms").prepend(item);
