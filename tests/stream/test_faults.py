@@ -209,3 +209,14 @@ def test_differences_that_overflow_are_left_out():
     data = b"u,y\n1e308,1\n-1e308,2\n1e308,3\n"
     stream = fed(data, Settings(output=("y",), input=("u",)), "skipped")
     assert [each["skipped"] for each in rows(stream.lines)] == ["used", "out_of_range", "used"]
+
+
+def test_an_input_without_lines_takes_no_memory_for_ever(monkeypatch):
+    """Bytes that never end a line are a malformed line after a while."""
+    monkeypatch.setattr("forgetting.stream.pump.LONGEST", 1000)
+    monkeypatch.setattr("forgetting.stream.inputs.MOST", 4096)
+    data = b"u,y\n1,2\n" + b"x" * 20_000 + b"\n3,4\n"
+    done = command("-y", "y", "-u", "u", "--fields", "skipped", data=data)
+    found = [each["skipped"] for each in rows(done.stdout.splitlines())]
+    assert found[0] == found[-1] == "used"
+    assert set(found[1:-1]) == {"malformed"} and len(found) < 8

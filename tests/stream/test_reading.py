@@ -177,6 +177,17 @@ def test_an_infinite_term_is_missing():
     assert [each["skipped"] for each in told] == ["used", "missing", "used"]
 
 
+def test_quotation_marks_hold_no_lines_together():
+    """A mark that is left open ends with its line, also in a column that nobody uses."""
+    lines = as_csv(plant(60), "t_s,u,y,note").replace(b"\n", b",x\n").splitlines(keepends=True)
+    lines[0] = b"t_s,u,y,note\n"
+    expected = fed(b"".join(lines), arx(), FIELDS).lines
+    lines[20] = lines[20].replace(b"x", b'"x')
+    lines[30] = lines[30].replace(b"x", b'x"')
+    lines[40] = lines[40].replace(b"x", b'"a, b"')
+    assert fed(b"".join(lines), arx(), FIELDS).lines == expected
+
+
 def test_names_with_signs_of_templates():
     data = b'"u %b","y ""q"" %"\n1,2\n3,4\n'
     stream = fed(data, Settings(output=('y "q" %',), input=("u %b",)), "theta")

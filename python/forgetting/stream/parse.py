@@ -7,7 +7,9 @@ at fault stand nearly alone; these are read one by one, and only they are malfor
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -24,6 +26,7 @@ from forgetting.stream.stamps import Stamps
 
 FEW = 12
 """Lines that are read one by one sooner than as a block."""
+BLANK = re.compile(rb"^[ \t\r]*\n", re.MULTILINE)
 NO_CELL = "\x1f"
 """A separator that no text has, for one column."""
 
@@ -77,6 +80,8 @@ class Parser:
 
     def read(self, block: bytes) -> Rows:
         """Rows of whole lines; blank lines, comments and repeated names are none."""
+        if b"\n\n" in block or b"\n\r\n" in block:
+            block = BLANK.sub(b"", block)
         rows = joined(self._pieces(block))
         for number in self.numbers:
             rows.values[rows.values == number] = np.nan
@@ -84,15 +89,17 @@ class Parser:
 
     def _pieces(self, block: bytes) -> list[Rows]:
         lines = block.count(b"\n")
-        if lines > FEW:
-            try:
-                return [of_table(self._table(block), self.columns, self.stamps)]
-            except pa.ArrowInvalid:
-                middle = block.index(b"\n", len(block) // 2) + 1
-                if middle == len(block):
-                    middle = block.rindex(b"\n", 0, len(block) - 1) + 1
-                return self._pieces(block[:middle]) + self._pieces(block[middle:])
-        return [self._one_by_one(block)]
+        if lines <= FEW:
+            return [self._one_by_one(block)]
+        with suppress(pa.ArrowInvalid):
+            table = self._table(block)
+            # Fewer rows than lines: some are blank, or a quotation mark holds several together.
+            if table.num_rows == lines:
+                return [of_table(table, self.columns, self.stamps)]
+        middle = block.index(b"\n", len(block) // 2) + 1
+        if middle == len(block):
+            middle = block.rindex(b"\n", 0, len(block) - 1) + 1
+        return self._pieces(block[:middle]) + self._pieces(block[middle:])
 
     def _table(self, block: bytes) -> pa.Table:
         source = pa.BufferReader(block)

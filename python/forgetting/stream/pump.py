@@ -20,6 +20,8 @@ from forgetting.stream.state import check_settings, load, save
 from forgetting.stream.stream import Stream
 from forgetting.stream.tally import Teller
 
+LONGEST = 1 << 24
+"""Bytes of a line, from which on it is one though it does not end."""
 WAIT = 0.25
 """Seconds between two looks at signals and clocks while nothing comes."""
 LEAST, MOST = 0.25, 2.0
@@ -145,6 +147,8 @@ class Pump:
             return
         together = self.carry + data
         end = together.rfind(b"\n") + 1
+        if len(together) - end > LONGEST:
+            end = len(together)
         self.carry = together[end:]
         self._feed(together[:end])
 
