@@ -30,6 +30,8 @@ RULES = {
     "bank": dict(),
     "subspace": dict(rule=fg.Subspace(0.99)),
     "given prior": dict(rule=fg.Exponential(0.98), initial_covariance=100.0),
+    "half-life": dict(rule="exponential", half_life="2s"),
+    "rate": dict(rule=fg.Exponential(fg.FTest())),
     "float32": dict(rule=fg.Subspace(0.99), dtype="float32"),
     "gate": dict(gate=fg.gate("dead_zone", width=2)),
 }

@@ -138,6 +138,9 @@ def test_clock_named_and_none():
         (b"u,y\n1,2\n", dict(fields="error,error"), "twice"),
         (b"u,y\n1,2\n", dict(output=()), "say the model"),
         (b"u,y\n1,2\n", dict(formula="y ~ u"), "not both"),
+        (b"u,y\n1,2\n", dict(rule="subspace", half_life="5s"), "the stream has none"),
+        (b"u,y\n1,2\n", dict(half_life="5s"), "not auto"),
+        (b"u,y\n1,2\n", dict(rule="subspace", half_life="soon"), "half_life is 'soon'"),
     ],
 )
 def test_refusals(data, settings, words):

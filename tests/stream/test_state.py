@@ -21,6 +21,9 @@ from .conftest import PLANT, as_csv, command, fed, objects, plant
 ALL = {
     "bank": Settings(output=("y",), input=("u",), arx=(2, 2, 1)),
     "rule": Settings(output=("y",), input=("u",), arx=(1, 1, 0), rule=fg.Subspace(0.98)),
+    "by the clock": Settings(
+        output=("y",), input=("u",), rule="subspace", half_life="5s", arx=(1, 1, 0)
+    ),
     "outputs": Settings(output=("y", "u"), arx=(1, 0, 0), dtype="float32"),
     "formula": Settings(formula="y ~ lag(y) + lag(lag(u), 2)"),
     "no clock": Settings(output=("y",), input=("u",), time="none", gate="dead_zone"),

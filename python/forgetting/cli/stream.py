@@ -66,6 +66,8 @@ def stream(
     ] = None,
     rule: options.RuleName = None,
     forgetting_factor: options.ForgettingFactor = None,
+    half_life: options.HalfLife = None,
+    rate: options.RateText = None,
     threshold: options.Threshold = None,
     settings: options.Settings = None,
     gate: options.GateText = None,
@@ -111,13 +113,16 @@ def stream(
     from forgetting.stream.stream import Stream
 
     check_options(to, dtype, save_every, source, follow, state)
+    if half_life is not None and (forgetting_factor is not None or rate is not None):
+        raise RecordError("--half-life goes without --forgetting-factor and --rate")
     told = made_settings(
         formula=formula,
         output=tuple(output or ()),
         input=tuple(input or ()),
         arx=None if arx is None else parse_orders(arx),
         offset=offset,
-        rule=rule_or_auto(rule, forgetting_factor, threshold, settings or []),
+        rule=rule_or_auto(rule, forgetting_factor, threshold, settings or [], rate),
+        half_life=half_life,
         gate=make_gate(gate),
         initial_covariance=parse_covariance(initial_covariance),
         dtype=dtype,

@@ -38,6 +38,17 @@ def with_half_life(rule: Any, half_life: Any, samples: Samples) -> tuple[Any, Ar
     RecordError
         When the rule has no forgetting factor, or the record no clock.
     """
+    return rule_for(rule, half_life), None if counts(half_life) else seconds_in(samples)
+
+
+def rule_for(rule: Any, half_life: Any) -> Any:
+    """The rule with this half-life in the place of its forgetting factor.
+
+    Raises
+    ------
+    RecordError
+        When it has none, or the half-life is no length of time.
+    """
     try:
         seconds = seconds_of(half_life)
     except ValueError as error:
@@ -47,7 +58,7 @@ def with_half_life(rule: Any, half_life: Any, samples: Samples) -> tuple[Any, Ar
         name = rule if isinstance(rule, str) else rule.name
         raise RecordError(f"a half-life goes with a rule that has a forgetting factor, not {name}")
     own = {name: value for name, value in rule.parameters.items() if name != "factors"}
-    return type(rule)(half_life=seconds, **own), None if counts(half_life) else seconds_in(samples)
+    return type(rule)(half_life=seconds, **own)
 
 
 def counts(half_life: Any) -> bool:
@@ -68,3 +79,22 @@ def seconds_in(samples: Samples) -> Array:
         )
     steps = np.nan_to_num(samples.clock.steps, nan=0.0)
     return np.concatenate([[0.0], np.cumsum(np.maximum(steps, 0.0))])
+
+
+class LastTime:
+    """When the last complete sample was, between runs over parts of a record.
+
+    What went by since then is forgotten at the next complete sample, wherever a part ends.
+    """
+
+    def __init__(self, when: float | None = None) -> None:
+        self.when = when
+
+    def ahead_of(self, time: Array) -> Array:
+        """The times of a part as a run takes them, with that of the last complete sample first."""
+        return time if self.when is None else np.concatenate([[self.when], time])
+
+    def note(self, time: Array, complete: NDArray[np.bool_]) -> None:
+        """Go behind a part."""
+        if complete.any():
+            self.when = float(time[complete][-1])

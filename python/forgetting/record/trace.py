@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import forgetting as fg
+from forgetting.record.half_life import LastTime
 from forgetting.record.samples import Samples
 
 Array = NDArray[np.float64]
@@ -105,6 +106,7 @@ def run(
     phi = np.ascontiguousarray(samples.phi, dtype=dtype)
     y = np.ascontiguousarray(samples.y if samples.y.shape[1] > 1 else samples.y[:, 0], dtype=dtype)
     total = len(y)
+    last = LastTime()
     pieces: list[Any] = []
     rows: list[int] = []
     covariances: list[NDArray[Any]] = []
@@ -113,11 +115,12 @@ def run(
     for start, stop in chunks(total, phi.shape[1]):
         try:
             part = slice(start, stop)
-            # that of the last sample before the chunk comes with it
-            when = None if time is None else time[max(start - 1, 0) : stop]
+            when = None if time is None else last.ahead_of(time[part])
             piece = estimator.run(phi[part], y[part], outputs=outputs, missing="skip", time=when)
         except (fg.InvalidInput, fg.NumericalRange) as error:
             raise type(error)(in_rows(str(error), start)) from None
+        if time is not None:
+            last.note(time[part], samples.complete[part])
         pieces.append(piece)
         rows.append(stop - 1)
         covariances.append(estimator.covariance.astype(np.float64))

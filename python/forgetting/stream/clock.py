@@ -33,11 +33,15 @@ class Marks:
         The time is before that of the row before; always a gap.
     repeated : ndarray of bool, shape (T,)
         Same time and same values: the row brings nothing and is no part of any lag.
+    time : ndarray, shape (T,), or None
+        Seconds that went by since the first row, as `forgetting.record.half_life` counts them; None
+        without a clock.
     """
 
     gap: Flags
     late: Flags
     repeated: Flags
+    time: Array | None = None
 
 
 class StreamClock:
@@ -48,6 +52,7 @@ class StreamClock:
         self.start: Any = None
         """The first time stamp, which seconds are counted from."""
         self.last = np.nan
+        self.elapsed = 0.0
         self.seen = False
         self.values: list[float] = []
         """The row before."""
@@ -59,7 +64,7 @@ class StreamClock:
     def mark(self, rows: Rows) -> Marks:
         """Compare rows with those before them."""
         none = np.zeros(len(rows), dtype=bool)
-        if self.stamps is None or not len(rows):
+        if self.stamps is None:
             return Marks(none, none, none)
         seconds = self._seconds(rows)
         steps = np.diff(seconds, prepend=self.last)
@@ -69,15 +74,23 @@ class StreamClock:
         gap = (~on | (steps > limit * SLACK)) & ~repeated
         if not self.seen:
             gap[0] = False
+        time = self._went_by(steps)
         self.last, self.seen = float(seconds[-1]), True
         self.values = rows.values[-1].tolist()
-        return Marks(gap, steps < 0, repeated)
+        return Marks(gap, steps < 0, repeated, time)
 
     def _seconds(self, rows: Rows) -> Array:
         assert self.stamps is not None
         if self.start is None and rows.timed.any():
             self.start = rows.ticks[rows.timed][0].item()
         return self.stamps.seconds(rows.ticks, rows.timed, self.start or 0)
+
+    def _went_by(self, steps: Array) -> Array:
+        """Steps added up; one back, or at a missing time, takes no time."""
+        onward = np.maximum(np.nan_to_num(steps, nan=0.0), 0.0)
+        time = np.cumsum(np.concatenate([[self.elapsed], onward]))[1:]
+        self.elapsed = float(time[-1])
+        return time
 
     def _same(self, values: Array) -> Flags:
         before = np.array(self.values) if self.seen else np.full(values.shape[1], np.nan)
@@ -112,6 +125,7 @@ class StreamClock:
         return {
             "start": self.start,
             "last": self.last,
+            "elapsed": self.elapsed,
             "seen": self.seen,
             "values": self.values,
             "forward": self.forward.tolist(),
@@ -121,6 +135,6 @@ class StreamClock:
     def restore(self, state: dict[str, Any]) -> None:
         """Go on from a saved state."""
         self.start, self.last, self.seen = state["start"], state["last"], state["seen"]
-        self.values = state["values"]
+        self.elapsed, self.values = state["elapsed"], state["values"]
         self.forward = np.array(state["forward"], dtype=np.float64)
         self.still = np.array(state["still"], dtype=bool)

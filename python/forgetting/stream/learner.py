@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import forgetting as fg
+from forgetting.record.half_life import LastTime
 from forgetting.record.identify import estimator_for
 from forgetting.record.origin import weighted_sum
 from forgetting.record.trace import USED
@@ -91,20 +92,26 @@ class Learner:
         self.also = also
         self.phi0: Array | None = None
         self.y0 = np.zeros(outputs)
+        self.last = LastTime()
         self.used = 0
         self.reason = ""
         """What was said of the first refused row since it was last taken."""
         self.total = np.zeros(outputs)
         """Sum of e² / (1 + leverage) over the used samples but the first n."""
 
-    def take(self, phi: Array, y: Array) -> tuple[Estimates, Array, Array]:
+    def take(
+        self, phi: Array, y: Array, time: Array | None = None
+    ) -> tuple[Estimates, Array, Array]:
         """Learn from rows; also the rows as they were measured from the origin."""
         start = self._find_origin(phi, y)
         # A difference of very large numbers is infinite, and refused like they are.
         with np.errstate(over="ignore"):
             moved = phi if self.phi0 is None else phi - self.phi0
             target = y if self.phi0 is None else y - self.y0
-        pieces = [self._run(moved[each], target[each]) for each in self._slices(len(phi))]
+        pieces = [
+            self._run(moved[part], target[part], None if time is None else time[part])
+            for part in self._parts(len(phi))
+        ]
         found = {key: np.concatenate([each[key] for each in pieces]) for key in pieces[0]}
         return self._estimates(found, y, start), moved, target
 
@@ -120,19 +127,19 @@ class Learner:
         self.phi0[self.constant] = 0.0
         return first
 
-    def _slices(self, total: int) -> list[slice]:
+    def _parts(self, total: int) -> list[slice]:
         length = max(ROOM // self.n**2, 1) if self._needs_covariance else total
-        return [slice(k, k + length) for k in range(0, total, length)]
+        return [slice(start, start + length) for start in range(0, total, length)]
 
     @property
     def _needs_covariance(self) -> bool:
         return self.wants_errors and self.constant is not None
 
-    def _run(self, phi: Array, y: Array) -> dict[str, Any]:
+    def _run(self, phi: Array, y: Array, time: Array | None) -> dict[str, Any]:
         wanted = ["theta", "error", "leverage", "skipped", "windup", *self.also]
         if self.wants_errors:
             wanted.append("covariance" if self._needs_covariance else "variance")
-        brought = run_all(self.estimator, phi, y, tuple(dict.fromkeys(wanted)))
+        brought = run_all(self.estimator, phi, y, tuple(dict.fromkeys(wanted)), time, self.last)
         self.reason = self.reason or brought.reason
         found = {
             name: values.astype(np.float64) if values.dtype.kind == "f" else values
@@ -184,6 +191,7 @@ class Learner:
             "estimator": base64.b64encode(self.estimator.to_bytes()).decode(),
             "phi0": None if self.phi0 is None else self.phi0.tolist(),
             "y0": self.y0.tolist(),
+            "last": self.last.when,
             "used": self.used,
             "total": self.total.tolist(),
         }
@@ -203,6 +211,7 @@ class Learner:
         self.estimator = saved
         self.phi0 = None if state["phi0"] is None else np.array(state["phi0"])
         self.y0, self.used = np.array(state["y0"]), state["used"]
+        self.last = LastTime(state["last"])
         self.total = np.array(state["total"])
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import forgetting as fg
+from forgetting.record.half_life import LastTime
 from forgetting.stream.rows import Array, Flags
 
 SAMPLE = re.compile(r"\bsample (\d+): ")
@@ -35,8 +36,18 @@ class Brought:
     reason: str = ""
 
 
-def run_all(estimator: Any, phi: Array, y: Array, names: tuple[str, ...]) -> Brought:
+def run_all(
+    estimator: Any,
+    phi: Array,
+    y: Array,
+    names: tuple[str, ...],
+    time: Array | None = None,
+    last: LastTime | None = None,
+) -> Brought:
     """Run over (T, n) regressors and (T, m) outputs, NaN where something is missing.
+
+    With the time of each row, (T,), and that of the last complete one before, forgetting counts
+    time.
 
     Examples
     --------
@@ -49,15 +60,26 @@ def run_all(estimator: Any, phi: Array, y: Array, names: tuple[str, ...]) -> Bro
     with np.errstate(over="ignore"):
         phi = np.ascontiguousarray(phi, dtype=dtype)
         target = np.ascontiguousarray(y if y.shape[1] > 1 else y[:, 0], dtype=dtype)
+    last = last or LastTime()
+    when = None if time is None else last.ahead_of(time)
     try:
-        run = estimator.run(phi, target, outputs=names, missing="skip")
+        run = estimator.run(phi, target, outputs=names, missing="skip", time=when)
     except (fg.NumericalRange, fg.InvalidInput):
-        return run_some(estimator, phi, target, names)
+        return run_some(estimator, phi, target, names, time, last)
+    if time is not None:
+        last.note(time, complete(phi, target))
     outputs = {name: getattr(run, name) for name in names}
     return Brought(outputs, np.zeros(len(phi), dtype=bool))
 
 
-def run_some(estimator: Any, phi: Array, y: Array, names: tuple[str, ...]) -> Brought:
+def run_some(
+    estimator: Any,
+    phi: Array,
+    y: Array,
+    names: tuple[str, ...],
+    time: Array | None,
+    last: LastTime,
+) -> Brought:
     """The same, where some row is refused: piece by piece, without those."""
     infinite = np.isinf(np.column_stack([phi, y]))
     refused: Flags = np.asarray(infinite.any(axis=1))
@@ -68,7 +90,9 @@ def run_some(estimator: Any, phi: Array, y: Array, names: tuple[str, ...]) -> Br
     while at < len(phi):
         stop = min(at + size, len(phi))
         try:
-            run = estimator.run(phi[at:stop], y[at:stop], outputs=names, missing="skip")
+            part = slice(at, stop)
+            when = None if time is None else last.ahead_of(time[part])
+            run = estimator.run(phi[part], y[part], outputs=names, missing="skip", time=when)
         except fg.NumericalRange as error:
             place = SAMPLE.search(str(error))
             if place is None:
@@ -77,7 +101,14 @@ def run_some(estimator: Any, phi: Array, y: Array, names: tuple[str, ...]) -> Br
             refused[wrong], reason = True, reason or str(error)[place.end() :]
             phi[wrong], size = np.nan, wrong + 1 - at
             continue
+        if time is not None:
+            last.note(time[part], complete(phi[part], y[part]))
         pieces.append(run)
         at, size = stop, 2 * size
     outputs = {name: np.concatenate([getattr(run, name) for run in pieces]) for name in names}
     return Brought(outputs, refused, reason)
+
+
+def complete(phi: Array, y: Array) -> Flags:
+    """Rows without a missing value."""
+    return np.asarray(~np.isnan(np.column_stack([phi, y])).any(axis=1))

@@ -24,7 +24,7 @@ class Settings:
         A regression whose terms need no more than the row and its lags.
     offset : bool
         Whether an ARX model or a regression by columns has a constant.
-    rule, gate, initial_covariance, dtype
+    rule, half_life, gate, initial_covariance, dtype
         The estimator; without a rule a bank.
     time, gap, missing
         The clock, its gaps in seconds, and what stands for missing values.
@@ -40,6 +40,7 @@ class Settings:
     formula: str | None = None
     offset: bool = True
     rule: Any = "auto"
+    half_life: Any = None
     gate: Any = None
     initial_covariance: ArrayLike | None = None
     dtype: str = "float64"

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from forgetting.record.formats.dialect import is_aside
+from forgetting.record.half_life import counts, rule_for
 from forgetting.record.trace import MISSING, USED
 from forgetting.stream import fields as field_names
 from forgetting.stream.blocks import decoded, first_cells, pieces
@@ -26,6 +27,7 @@ from forgetting.stream.stamps import Stamps, find_stamps
 from forgetting.stream.tally import Tally
 from forgetting.stream.watch import Watch
 from forgetting.stream.writing import Writer
+from forgetting.words.errors import RecordError
 
 
 class Stream:
@@ -122,6 +124,10 @@ class Stream:
         """Make all that depends on the columns."""
         own = self.settings
         self.form, self.stamps = form, stamps
+        rule = own.rule if own.half_life is None else rule_for(own.rule, own.half_life)
+        self.by_clock = own.half_life is not None and not counts(own.half_life)
+        if self.by_clock and stamps is None:
+            raise RecordError("a half-life in time needs a clock, and the stream has none")
         model: Model = make_model(form, own.formula, own.output, own.input, own.arx, own.offset)
         self.model = model
         names = field_names.chosen(self.fields, stamps is not None, own.rule == "auto")
@@ -129,7 +135,7 @@ class Stream:
             len(model.regressors),
             len(model.outputs),
             model.constant,
-            own.rule,
+            rule,
             own.gate,
             own.initial_covariance,
             own.dtype,
@@ -150,7 +156,7 @@ class Stream:
             return
         marks = self.clock.mark(rows)
         phi, y = self._samples(rows, marks)
-        found, moved, target = self.learner.take(phi, y)
+        found, moved, target = self.learner.take(phi, y, marks.time if self.by_clock else None)
         first = self.tally.rows + 1
         alarms = self.watch.take(moved, target, found.others["windup"])
         self._count(rows, marks, found)
