@@ -173,6 +173,12 @@ def test_another_file_is_said_to_be_one(tmp_path, log):
     assert "the file is another than that of the state" in done.stderr.decode()
 
 
+def test_a_file_that_is_replaced_before_it_holds_a_row():
+    stream = fed(b"t_s,u,y\n", SETTINGS)
+    stream.further_input()
+    assert len(stream.feed(as_csv(plant(20))).lines) == 20
+
+
 def test_a_file_with_other_columns_is_refused(log):
     log.begin(1, 20)
     source = File(log.path, follow=False)

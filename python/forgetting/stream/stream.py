@@ -102,7 +102,7 @@ class Stream:
     def further_input(self) -> None:
         """Begin with another input, such as a file that took the place of the one before."""
         self.position.restart()
-        self.begins = True
+        self.begins, self.pending = True, b""
 
     def _below_names(self, block: bytes) -> bytes:
         """The block without a line of names at its top, which would keep it from being a table."""
