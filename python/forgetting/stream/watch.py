@@ -100,12 +100,7 @@ class Watch:
 
     def take(self, phi: Array, y: Array, windup: Flags) -> list[Alarm]:
         """Take rows, in the order of time; what begins or ends in them, in that order."""
-        found = list(self._windup(windup))
-        at = 0
-        while at < len(phi):
-            stop = min(at + EVERY - (self.rows + at) % EVERY, len(phi))
-            found += self._piece(phi[at:stop], y[at:stop], at)
-            at = stop
+        found = [*self._windup(windup), *self._changes(phi, y), *self._excitation(phi, y)]
         self.rows += len(phi)
         return sorted(found, key=lambda alarm: alarm.row)
 
@@ -116,18 +111,12 @@ class Watch:
         if len(flags):
             self.winding_up = bool(flags[-1])
 
-    def _piece(self, phi: Array, y: Array, at: int) -> Iterator[Alarm]:
+    def _changes(self, phi: Array, y: Array) -> Iterator[Alarm]:
         brought = run_all(self.test, phi, y, ("forgetting_factor", "skipped")).outputs
         changed = (brought["forgetting_factor"] < FACTOR) & (brought["skipped"] == USED)
-        yield from self._changes(changed, self.rows + at + 1)
-        run_all(self.gauge, phi, y, ())
-        row = self.rows + at + len(phi)
-        if row % EVERY == 0:
-            yield from self._excitation(row)
-
-    def _changes(self, changed: Flags, first: int) -> Iterator[Alarm]:
         if not self.changing and not changed.any():
             return
+        first = self.rows + 1
         for place, now in enumerate(changed.tolist()):
             if now:
                 self.steady = 0
@@ -140,7 +129,17 @@ class Watch:
                     self.changing, self.steady = False, 0
                     yield Alarm("change", False, first + place)
 
-    def _excitation(self, row: int) -> Iterator[Alarm]:
+    def _excitation(self, phi: Array, y: Array) -> Iterator[Alarm]:
+        at = 0
+        while at < len(phi):
+            stop = min(at + EVERY - (self.rows + at) % EVERY, len(phi))
+            run_all(self.gauge, phi[at:stop], y[at:stop], ())
+            at = stop
+            if (self.rows + at) % EVERY == 0:
+                yield from self._look(self.rows + at)
+
+    def _look(self, row: int) -> Iterator[Alarm]:
+        """Ask the monitor which parameters nothing informs."""
         watched = self.gauge.watched()
         assert watched is not None
         quiet = watched["since_excited"] >= 2 * watched["block"]
