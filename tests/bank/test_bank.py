@@ -272,3 +272,13 @@ def test_the_memory_of_exponential_forgetting_is_that_of_its_factor():
     bank = fg.Bank(3, [fg.Exponential(0.98)])
     bank.run(phi, phi.sum(axis=1))
     assert bank.memory == pytest.approx(50.0, rel=0.05)
+
+
+def test_every_output_has_a_number_for_each_sample():
+    random = np.random.default_rng(0)
+    phi, y = random.normal(size=(100, 3)), random.normal(size=100)
+    names = ("theta", "error", "leverage", "forgetting_factor", "skipped", "gate", "windup")
+    names += ("variance", "covariance", "weights", "memory")
+    for part in (*((name,) for name in names), names, names[:7]):
+        run = fg.Bank(3).run(phi, y, outputs=part)
+        assert all(len(getattr(run, name)) == 100 for name in part)

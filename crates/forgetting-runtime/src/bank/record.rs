@@ -173,6 +173,9 @@ impl<T: Number> Outputs<T> {
         if let Some(skipped) = &mut self.skipped {
             skipped.extend(outcomes.iter().map(|_| 0));
         }
+        if let Some(gate) = &mut self.gate {
+            gate.extend(outcomes.iter().map(|_| Answer::Update.code()));
+        }
         if let Some(windup) = &mut self.windup {
             windup.extend(outcomes.iter().map(|outcome| outcome.windup));
         }
