@@ -13,7 +13,8 @@ pub struct Health<'a, T> {
     pub least_variances: &'a [T],
     /// the variance in P along the direction
     pub variance: T,
-    /// σ² over what it was when the direction was last informed; 1 if it is informed now
+    /// σ² over what it was when the direction was last informed; 1 if it is informed now, unless σ²
+    /// is still a thousand times that
     pub growth: T,
     /// samples since it was last informed
     pub since_informed: u64,

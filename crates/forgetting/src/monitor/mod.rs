@@ -15,7 +15,9 @@
 //! is large, even the noise of a regressor brings some information: so the share that ends windup
 //! grows with the variance, up to the share that keeps the variance where it is. Only the weakest
 //! direction is followed, the largest eigenvector of P with each parameter scaled by the smallest
-//! standard deviation it has had: whatever winds up becomes it, in any units. A block is
+//! standard deviation it has had: whatever winds up becomes it, in any units. Information ends the
+//! alarm, yet a variance a thousand times that of before is no new normal: it is compared with what
+//! it was until it has come down. A block is
 //! N = max(10, 2n, half the memory) samples, so that its end, O(n²), costs O(n) a sample.
 
 use crate::covariance::Factor;
@@ -36,6 +38,8 @@ use weakest::Weakest;
 
 /// Growth of the variance of a silent direction that counts as windup.
 pub const FACTOR: f64 = 10.0;
+/// Growth from which on information does not make a variance the one to compare with.
+pub const LASTING: f64 = 1000.0;
 /// Information over a block, as a share of 1/σ², from which on a direction counts as informed.
 pub const SHARE: f64 = 0.01;
 /// The same for a direction that has wound up far. About one half would keep its variance where it
@@ -151,7 +155,8 @@ impl<M: Memory> Monitor<M> {
     #[cold]
     fn end_block(&mut self, factor: &Factor<M>) {
         factor.variances(self.variances.as_mut());
-        if self.weakest.end_block(factor, self.variances.as_ref(), self.samples) {
+        let ever = self.informed > 0;
+        if self.weakest.end_block(factor, self.variances.as_ref(), self.samples, ever) {
             self.informed = self.samples;
         }
         self.start_block();
@@ -166,7 +171,7 @@ impl<M: Memory> Monitor<M> {
             direction: self.weakest.direction.as_ref(),
             least_variances: self.weakest.least.as_ref(),
             variance: self.weakest.spread,
-            growth: if informed { M::Real::ONE } else { self.weakest.growth() },
+            growth: self.weakest.growth(self.informed > 0),
             since_informed: if informed { 0 } else { self.samples - self.informed },
             since_excited: self.silence.as_ref(),
             samples: self.samples,

@@ -1,7 +1,7 @@
 //! The direction with the largest variance, each parameter scaled by the smallest standard
 //! deviation it has had.
 
-use super::{FACTOR, RECOVERY, SHARE};
+use super::{FACTOR, LASTING, RECOVERY, SHARE};
 use crate::covariance::Factor;
 use crate::memory::state::{is_finite, State, Visitor};
 use crate::memory::Memory;
@@ -76,8 +76,19 @@ impl<M: Memory> Weakest<M> {
         (self.information[0] + self.information[1]) * self.variance >= self.needed()
     }
 
-    /// σ² over what it was when w was last informed.
-    pub fn growth(&self) -> M::Real {
+    /// Whether its variance is so far above the reference that information alone does not make it
+    /// the new one.
+    #[inline]
+    pub fn is_far(&self, variance: M::Real) -> bool {
+        variance > M::Real::from_f64(LASTING) * self.reference
+    }
+
+    /// σ² over what it was when w was last informed: 1 while it is, unless it is still far above.
+    pub fn growth(&self, ever_informed: bool) -> M::Real {
+        let far = ever_informed && self.is_far(self.variance);
+        if self.is_informed() && !far {
+            return M::Real::ONE;
+        }
         self.variance / self.reference
     }
 
@@ -106,8 +117,15 @@ impl<M: Memory> Weakest<M> {
     }
 
     /// Finds w for the next block, after so many samples; returns whether it was informed in this
-    /// one.
-    pub fn end_block(&mut self, factor: &Factor<M>, variances: &[M::Real], samples: u64) -> bool {
+    /// one. `ever_informed` if it was in any before: else the reference is the initial variance,
+    /// which says nothing of what is normal.
+    pub fn end_block(
+        &mut self,
+        factor: &Factor<M>,
+        variances: &[M::Real],
+        samples: u64,
+        ever_informed: bool,
+    ) -> bool {
         let (before, needed) = (self.variance, self.needed());
         let along = self.information[0];
         let same = self.iterate(factor, variances, samples);
@@ -121,7 +139,7 @@ impl<M: Memory> Weakest<M> {
             let informed = along * before >= needed;
             (if informed { along } else { M::Real::ZERO }, informed)
         };
-        if informed {
+        if informed && !(ever_informed && self.is_far(before)) {
             // no direction had a larger variance before
             self.reference = before;
         }
