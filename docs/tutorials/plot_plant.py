@@ -42,7 +42,7 @@ for name, model in models.items():
     print(
         name,
         "at the end: a, b =",
-        -estimates[name][-1, 0].round(3),
+        estimates[name][-1, 0].round(3),
         estimates[name][-1, 1].round(3),
     )
 

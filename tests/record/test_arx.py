@@ -70,7 +70,7 @@ def test_predict_is_one_step():
     theta = model.theta_
     k = 57
     by_hand = (
-        -theta[0] * y[k - 1] - theta[1] * y[k - 2] + u[k - 1] @ theta[2:4] + u[k - 2] @ theta[4:]
+        theta[0] * y[k - 1] + theta[1] * y[k - 2] + u[k - 1] @ theta[2:4] + u[k - 2] @ theta[4:]
     )
     assert predicted[k] == pytest.approx(by_hand, rel=1e-12)
 
@@ -95,7 +95,7 @@ def by_recursion(model, u, start):
     y = np.zeros((len(u), outputs))
     y[: len(start)] = start
     for k in range(len(start), len(u)):
-        past = [-y[k - lag] if k >= lag else np.zeros(outputs) for lag in range(1, model.na + 1)]
+        past = [y[k - lag] if k >= lag else np.zeros(outputs) for lag in range(1, model.na + 1)]
         lags = range(model.nk, model.nk + model.nb)
         past += [u[k - lag] if k >= lag else np.zeros(u.shape[1]) for lag in lags]
         y[k] = np.concatenate(past) @ theta
@@ -133,7 +133,7 @@ def test_a_free_run_without_scipy_says_what_to_install(monkeypatch):
 def test_without_input():
     y = 0.9 ** np.arange(50)
     model = fg.ARX(na=1, nb=0, rule="none", initial_covariance=1e8).fit(None, y)
-    assert model.theta_[0] == pytest.approx(-0.9, abs=1e-6)
+    assert model.theta_[0] == pytest.approx(0.9, abs=1e-6)
     np.testing.assert_allclose(model.simulate(50, y_start=y[:1]), y, atol=1e-4)
 
 

@@ -15,7 +15,7 @@ def by_hand(y, u, na, nb, nk):
     for k in range(len(y)):
         row = []
         for lag in range(1, na + 1):
-            row += [-y[k - lag, j] if k >= lag else np.nan for j in range(y.shape[1])]
+            row += [y[k - lag, j] if k >= lag else np.nan for j in range(y.shape[1])]
         for lag in range(nk, nk + nb):
             row += [u[k - lag, j] if k >= lag else np.nan for j in range(u.shape[1])]
         rows.append(row)
@@ -53,11 +53,11 @@ def test_estimates_follow_the_dense_recursion(plant):
 
 def test_finds_the_plant(plant):
     found = identify(plant, output=["y1", "y2"], input=["u1", "u2"], arx=(1, 1, 1), rule="none")
-    truth = {"y1": [-0.7, -0.1, 1.0, 0.0, 0.0], "y2": [0.2, -0.5, 0.5, -0.3, 0.0]}
+    truth = {"y1": [0.7, 0.1, 1.0, 0.0, 0.0], "y2": [-0.2, 0.5, 0.5, -0.3, 0.0]}
     table = found.parameters
     for output, values in truth.items():
         rows = table[table["output"] == output]
-        names = ["-y1(k-1)", "-y2(k-1)", "u1(k-1)", "u2(k-1)", "offset"]
+        names = ["y1(k-1)", "y2(k-1)", "u1(k-1)", "u2(k-1)", "offset"]
         assert rows["parameter"].tolist() == names
         # Four standard errors: one in 16 000 for each of ten values.
         assert (np.abs(rows["value"] - values) < 4 * rows["standard_error"]).all()

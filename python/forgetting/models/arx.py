@@ -22,9 +22,10 @@ Array = NDArray[np.float64]
 class ARX(Constructor):
     """AutoRegressive model with eXogenous inputs, y(k) = phi(k) theta + noise.
 
-    The regressor is equations (1)-(2) of Zhu, Yu and Wan (2022):
-    ``phi(k) = [-y(k-1) ... -y(k-na), u(k-nk) ... u(k-nk-nb+1)]``. Several outputs share phi and one
-    covariance factor, so m outputs cost O(n² + n·m) a sample.
+    The regressor is ``phi(k) = [y(k-1) ... y(k-na), u(k-nk) ... u(k-nk-nb+1)]``, so that
+    y(k) = a1 y(k-1) + ... + b1 u(k-nk) + ...: a first-order model has its pole at a1. (Where the
+    literature writes A(q) y = B(q) u with A(q) = 1 + a1 q⁻¹ + ..., its a has the other sign.)
+    Several outputs share phi and one covariance factor, so m outputs cost O(n² + n·m) a sample.
 
     A sample with a missing value (NaN) anywhere in phi(k) or y(k) is skipped: the estimate is held,
     and every later sample whose lags reach the gap is skipped too. To break the lags between two
@@ -68,8 +69,8 @@ class ARX(Constructor):
     >>> for k in range(1, 300):
     ...     y[k] = 0.8 * y[k - 1] + 0.5 * u[k - 1]
     >>> model = fg.ARX(na=1, nb=1, nk=1, rule=fg.NoForgetting(), initial_covariance=1e8).fit(u, y)
-    >>> np.round(model.theta_, 6) + 0.0
-    array([-0.8,  0.5])
+    >>> np.round(model.theta_, 6)
+    array([0.8, 0.5])
     """
 
     def __init__(

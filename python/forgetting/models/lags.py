@@ -1,10 +1,11 @@
 """The regressor of an ARX model: which past value stands in which column.
 
-Equations (1)-(2) of Zhu, Yu and Wan (2022), "Variable-direction forgetting via oblique projection
-decomposition", with the output lags negated so that the coefficients are those of the polynomial
-A(q) = 1 + a1 q^-1 + ...:
+    phi(k) = [y(k-1) ... y(k-na)   u(k-nk) ... u(k-nk-nb+1)]
 
-    phi(k) = [-y(k-1) ... -y(k-na)   u(k-nk) ... u(k-nk-nb+1)]
+so that y(k) = a1 y(k-1) + ... + b1 u(k-nk) + ...: a model of first order has its pole at a1. The
+literature often has the output lags negated (equations (1)-(2) of Zhu, Yu and Wan 2022,
+"Variable-direction forgetting via oblique projection decomposition"), for coefficients of the
+polynomial A(q) = 1 + a1 q^-1 + ...; those are these with the other sign.
 
 With several outputs (inputs) every y (u) above is the block of all outputs (inputs), in order.
 """
@@ -43,11 +44,11 @@ def regressors(u: Array, y: Array, orders: Orders) -> Array:
     >>> import numpy as np
     >>> u, y = np.array([[1.0], [2.0], [3.0]]), np.array([[10.0], [20.0], [30.0]])
     >>> regressors(u, y, Orders(1, 2, 0))
-    array([[ nan,   1.,  nan],
-           [-10.,   2.,   1.],
-           [-20.,   3.,   2.]])
+    array([[nan,  1., nan],
+           [10.,  2.,  1.],
+           [20.,  3.,  2.]])
     """
-    blocks = [-delayed(y, lag) for lag in range(1, orders.na + 1)]
+    blocks = [delayed(y, lag) for lag in range(1, orders.na + 1)]
     blocks += [delayed(u, lag) for lag in range(orders.nk, orders.nk + orders.nb)]
     return np.ascontiguousarray(np.hstack(blocks))
 
@@ -65,8 +66,8 @@ def names(outputs: Sequence[str], inputs: Sequence[str], orders: Orders) -> list
     Examples
     --------
     >>> names(["V"], ["I"], Orders(1, 2, 0))
-    ['-V(k-1)', 'I(k)', 'I(k-1)']
+    ['V(k-1)', 'I(k)', 'I(k-1)']
     """
-    past = [f"-{y}(k-{lag})" for lag in range(1, orders.na + 1) for y in outputs]
+    past = [f"{y}(k-{lag})" for lag in range(1, orders.na + 1) for y in outputs]
     delays = range(orders.nk, orders.nk + orders.nb)
     return past + [f"{u}(k-{lag})" if lag else f"{u}(k)" for lag in delays for u in inputs]

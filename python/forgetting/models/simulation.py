@@ -1,8 +1,8 @@
 """Free run of an ARX model.
 
-With its own outputs in the lags, y(k) + A_1 y(k-1) + ... + A_na y(k-na) = f(k), f(k) what the
+With its own outputs in the lags, y(k) - A_1 y(k-1) - ... - A_na y(k-na) = f(k), f(k) what the
 inputs bring. All samples together are one linear system, lower triangular with ones on the
-diagonal and nothing but the A_l in a narrow band below it: one forward substitution solves it,
+diagonal and nothing but the -A_l in a narrow band below it: one forward substitution solves it,
 however many outputs act on one another.
 """
 
@@ -82,5 +82,5 @@ def band(feedback: Array, samples: int, copied: int) -> Array:
     for (row, target), coefficient in np.ndenumerate(feedback):
         lag, source = row // outputs + 1, row % outputs
         below = lag * outputs + target - source
-        columns[max(copied - lag, 0) :, source, below] = coefficient
+        columns[max(copied - lag, 0) :, source, below] = -coefficient
     return columns.reshape(samples * outputs, rows + outputs).T
