@@ -11,8 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._core import RLS
+from .judgement import Judgement
+from .judgement.covariance import LASTING, involved, strong
+from .judgement.live import live
 
-Status = Literal["ok", "unexcited", "windup", "saturated"]
+Status = Literal["ok", "unexcited", "recovering", "windup", "saturated"]
 
 #: Beyond these bounds on D the covariance is at the edge of its number type.
 EDGE = {"float64": 2.0**490, "float32": 2.0**55}
@@ -26,11 +29,12 @@ class Health:
 
     Attributes
     ----------
-    status : {"ok", "unexcited", "windup", "saturated"}
+    status : {"ok", "unexcited", "recovering", "windup", "saturated"}
         "saturated": P is at the edge of its number type. "windup": the weakest direction has
         grown to more than ten times its variance when it was last informed, and is not informed
         now. "unexcited": it is not informed now, or some parameter was not excited in the last
-        two blocks.
+        two blocks. "recovering": it is informed again, but its variance is still more than a
+        thousand times what it was.
     largest_eigenvalue, smallest_eigenvalue : float
         Of P. Exact if `exact`; else the largest and smallest element of D: the largest
         eigenvalue is at least that, the smallest at most that.
@@ -45,7 +49,8 @@ class Health:
     parts : (n,) ndarray or None
         The same in those units: how far each parameter belongs to it.
     variance, growth : float or None
-        Its variance in P, and how many times that is what it was when it was last informed.
+        Its variance in P, and how many times that is what it was when it was last informed: 1
+        while it is informed, unless the variance is still more than a thousand times that.
     since_informed : int or None
         Samples since then, to within one block of max(10, 2n, half the memory) samples.
     since_excited : (n,) ndarray of int or None
@@ -58,6 +63,8 @@ class Health:
         Whether it is within two standard deviations of 0.
     samples : int or None
         Samples watched.
+    weight : float or None
+        Samples behind `noise_variance` and `correlation`, weighted as the rule forgets.
     """
 
     status: Status
@@ -77,6 +84,21 @@ class Health:
     correlation: float | None = None
     white: bool | None = None
     samples: int | None = None
+    weight: float | None = None
+
+    def judgement(self, names: Sequence[str] | None = None) -> Judgement:
+        """What speaks for and against the estimate now, and what to do first.
+
+        Examples
+        --------
+        >>> import forgetting as fg
+        >>> est = fg.RLS(1, rule=fg.Exponential(0.9), monitor=True)
+        >>> for k in range(200):
+        ...     u = est.update([0.0], 3.0)
+        >>> est.health().judgement()["windup"].severity
+        'wrong'
+        """
+        return live(self.status, self.describe(names), self.correlation, self.weight or 0.0)
 
     def describe(self, names: Sequence[str] | None = None) -> str:
         """Say it in a sentence, with the parameters' names if they are given.
@@ -92,15 +114,19 @@ class Health:
         """
         if self.parts is None or self.status in ("ok", "saturated"):
             return self.status
+        label = names or [f"parameter {i}" for i in range(len(self.parts))]
+        if self.status == "recovering":
+            along = involved(self.parts, label)
+            return (
+                f"recovering: {along} is informed again, but its variance is still "
+                f"{self.growth:.3g} times what it was before"
+            )
         silence = self.since_excited if self.since_excited is not None else np.zeros(0)
         if self.informed:  # so it is a parameter that is silent
-            involved, samples = np.array([silence.argmax()]), int(silence.max())
+            along, samples = label[int(silence.argmax())], int(silence.max())
         else:
-            size = np.abs(self.parts)
-            involved = np.flatnonzero(size > 0.3 * size.max())
-            samples = max(self.since_informed or 0, int(silence[involved].min()))
-        named = [names[i] if names is not None else f"parameter {i}" for i in involved]
-        along = named[0] if len(named) == 1 else "the combination of " + " and ".join(named)
+            along = involved(self.parts, label)
+            samples = max(self.since_informed or 0, int(silence[strong(self.parts)].min()))
         return f"{self.status}: nothing has informed {along} for {samples} samples"
 
 
@@ -117,7 +143,7 @@ def health_of(estimator: RLS, exact: bool = False) -> Health:
     watched = estimator.watched()
     if watched is None:
         return Health("saturated" if saturated else "ok", *eigenvalues, exact)
-    weight, block = watched.pop("weight"), watched.pop("block")
+    weight, block = watched["weight"], watched.pop("block")
     parts = watched["direction"] / np.sqrt(watched.pop("least_variances"))
     watched["parts"] = parts / np.linalg.norm(parts)
     # the correlation of independent innovations has the variance 1/weight
@@ -131,4 +157,6 @@ def _status(watched: dict[str, Any], saturated: bool, block: float) -> Status:
     if watched["windup"]:
         return "windup"
     silent = watched["since_excited"].max() >= 2 * block
-    return "unexcited" if silent or not watched["informed"] else "ok"
+    if silent or not watched["informed"]:
+        return "unexcited"
+    return "recovering" if watched["growth"] > LASTING else "ok"

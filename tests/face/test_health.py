@@ -171,3 +171,47 @@ def test_a_direction_that_is_always_weak_does_not_hide_another():
     first = int(run.windup.argmax())
     assert first > 2000 and run.variance[first, 0] < run.variance[first, 3]
     assert est.health().describe(list("abcd")).startswith("windup: nothing has informed a for")
+
+
+def test_a_trickle_is_no_recovery():
+    """P stays thousands of times what it was: the alarm ends, the doubt does not."""
+    random = np.random.default_rng(0)
+    est = fg.RLS(2, rule=fg.Exponential(0.95), monitor=True)
+    phi = random.normal(size=(500, 2))
+    est.run(phi, phi.sum(axis=1))
+    known = est.covariance[0, 0]
+    est.run(np.zeros((250, 2)), np.zeros(250))
+    assert est.health().status == "windup"
+    small = 1e-2 * random.normal(size=(2000, 2))
+    est.run(small, small.sum(axis=1))
+    health = est.health()
+    assert est.covariance[0, 0] > 5e3 * known and health.informed
+    assert health.status == "recovering" and health.growth > 1e3
+    assert "times what it was before" in health.describe(["a", "b"])
+    assert health.judgement()["windup"].severity == "warning"
+    est.run(phi, phi.sum(axis=1))
+    assert est.health().status == "ok"
+
+
+def test_a_prior_that_is_far_too_sure_is_no_doubt_for_ever():
+    """What was never informed has nothing to compare with."""
+    random = np.random.default_rng(0)
+    est = fg.RLS(2, rule=fg.Exponential(0.95), initial_covariance=1e-8, monitor=True)
+    phi = random.normal(size=(2000, 2))
+    est.run(phi, phi.sum(axis=1) + random.normal(size=2000))
+    assert est.health().status == "ok" and est.health().growth == 1.0
+
+
+def test_health_speaks_the_words_of_the_judge():
+    est, random = watched(fg.Exponential(0.98))
+    assert est.health().judgement().severity == "good"
+    feed(est, random, STUCK, 400)
+    found = est.health().judgement(["a", "b", "c", "d"])
+    assert found["windup"].severity == "wrong" and found["windup"].text.startswith("windup: ")
+    noise = np.zeros(3000)
+    for k in range(1, 3000):
+        noise[k] = 0.995 * noise[k - 1] + random.normal()
+    est = fg.RLS(1, rule=fg.NoForgetting(), monitor=True)
+    phi = random.normal(size=(3000, 1))
+    est.run(phi, phi[:, 0] + noise)
+    assert est.health().judgement()["residuals"].severity == "wrong"
