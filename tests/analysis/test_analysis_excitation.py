@@ -8,6 +8,7 @@ import pytest
 from forgetting import InvalidInput
 from forgetting.analysis import (
     excitation,
+    excited,
     information_content,
     persistency_window,
     spectrum,
@@ -214,3 +215,16 @@ def test_misuse_is_refused_by_name(change, words):
     given = {"regressors": np.ones((30, 2)), "window": 3, **change}
     with pytest.raises(InvalidInput, match=words):
         excitation(**given)
+
+
+@pytest.mark.parametrize("window", [3, 20, 77, 400])
+def test_excited_sums_windows_as_if_one_by_one(window):
+    """Stretches are summed once: the same as the sum over each window."""
+    random = np.random.default_rng(5)
+    phi = random.normal(size=(1003, 3)) * (np.arange(1003)[:, None] // 200 % 2 == [0, 1, 0])
+    found = excited(phi, window, most=50)
+    mean = phi.T @ phi / len(phi)
+    for k, rank in zip(found.samples, found.rank, strict=True):
+        part = phi[max(0, k - window + 1) : k + 1]
+        values = np.linalg.eigvals(np.linalg.solve(mean, part.T @ part / window)).real
+        assert rank == (values >= 0.01).sum()

@@ -12,6 +12,7 @@ with M the mean of φ̄ᵀφ̄ over the record and S_k that over the last N samp
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -109,7 +110,7 @@ def excited(
     Returns
     -------
     Excited
-        O(K N n² rows + K n³) for K samples.
+        O(T n² rows + K n³) for K samples of T, N of which are at most T/4.
 
     Examples
     --------
@@ -131,12 +132,12 @@ def excited(
     chosen = np.arange(samples - 1, -1, -step)[::-1]
     root, never = _root(phibar)
     whole_record = np.square(root).sum(axis=1)
-    turned = phibar @ root
+    trailing = _Trailing(phibar, chosen, window)
     rank = np.empty(len(chosen), dtype=np.int64)
     informed = np.empty((len(chosen), n), dtype=bool)
     for place, k in enumerate(chosen):
-        part = turned[max(0, k - window + 1) : k + 1]
-        values, vectors = np.linalg.eigh(np.einsum("tpi,tpj->ij", part, part) / window)
+        part = trailing.sum(place, k)
+        values, vectors = np.linalg.eigh(root.T @ part @ root / window)
         silent = values < share
         rank[place] = np.count_nonzero(~silent)
         unexcited = np.square(root @ vectors[:, silent]).sum(axis=1)
@@ -144,11 +145,43 @@ def excited(
     return Excited(chosen, rank, informed & ~never, window, share)
 
 
+class _Trailing:
+    """Sums of φᵀφ over the last N samples up to those chosen, which are evenly spaced.
+
+    Stretches between the chosen samples are summed once; a window is whole stretches and a rest.
+    """
+
+    def __init__(self, phibar: Array, chosen: NDArray[np.int64], window: int) -> None:
+        self.phibar, self.chosen, self.window = phibar, chosen, window
+        edges = np.concatenate([[0], chosen + 1])
+        short = window <= (edges[-1] - edges[-2])
+        pairs = [] if short else pairwise(edges)
+        self.stretches = np.array([_gram(phibar[start:stop]) for start, stop in pairs])
+        self.starts = edges[:-1]
+
+    def sum(self, place: int, sample: int) -> Array:
+        """Over the window that ends with `sample`, the chosen one at `place`."""
+        first = max(0, sample - self.window + 1)
+        if not len(self.stretches):
+            return _gram(self.phibar[first : sample + 1])
+        whole = int(np.searchsorted(self.starts, first))
+        if whole > place:  # the window begins within the last stretch
+            return _gram(self.phibar[first : sample + 1])
+        rest = _gram(self.phibar[first : self.starts[whole]])
+        return np.asarray(rest + self.stretches[whole : place + 1].sum(axis=0))
+
+
+def _gram(part: Array) -> Array:
+    """Σ φᵀφ."""
+    rows = part.reshape(-1, part.shape[2])
+    return np.asarray(rows.T @ rows)
+
+
 def _root(phibar: Array) -> tuple[Array, NDArray[np.bool_]]:
     """M^{-1/2} (n, r) on the r directions ever excited, and the parameters outside them (n,)."""
-    size = np.sqrt(np.einsum("tpi,tpi->i", phibar, phibar) / len(phibar))
+    mean = _gram(phibar) / len(phibar)
+    size = np.sqrt(np.diagonal(mean))
     scale = 1 / np.where(size > 0, size, 1.0)
-    mean = np.einsum("tpi,tpj->ij", phibar, phibar) / len(phibar)
     values, vectors = np.linalg.eigh(mean * scale[:, np.newaxis] * scale)
     known = values > ROUNDING * max(float(values[-1]), 1.0)
     never = np.square(vectors[:, ~known]).sum(axis=1) > UNEXCITED_SHARE

@@ -47,7 +47,9 @@ def weighted(phi: ArrayLike, gamma: ArrayLike | None = None) -> Array:
     Any root of Γ serves: only φᵀΓ⁻¹φ is used further on. The lower Cholesky factor is taken.
     """
     array = regressors(phi)
-    array = np.where(np.isnan(array).any(axis=(1, 2), keepdims=True), 0.0, array)
+    missing = np.isnan(array).any(axis=(1, 2), keepdims=True)
+    if missing.any():  # else there is no need of a copy
+        array = np.where(missing, 0.0, array)
     if gamma is None:
         return array
     weight = weighting(gamma, array.shape[0], array.shape[1])
