@@ -38,7 +38,7 @@ def test_json_equals_python(forgetting, battery):
     found = identify(battery, output="V", input="I", arx=(1, 2, 0), rule=fg.Exponential(0.98))
     assert printed == json.loads(json.dumps(found.summary())) | {"written": []}
     assert [row["parameter"] for row in printed["parameters"]] == [
-        "-V(k-1)",
+        "V(k-1)",
         "I(k)",
         "I(k-1)",
         "offset",
@@ -75,7 +75,7 @@ def test_several_outputs_and_inputs(forgetting, tmp_path):
     )
     rows = json.loads(run.out)["parameters"]
     assert [row["output"] for row in rows] == ["p"] * 5 + ["q"] * 5
-    names = ["-p(k-1)", "-q(k-1)", "r(k-1)", "s(k-1)", "offset"]
+    names = ["p(k-1)", "q(k-1)", "r(k-1)", "s(k-1)", "offset"]
     assert [row["parameter"] for row in rows[:5]] == names
 
 

@@ -70,7 +70,9 @@ def test_one_chunk_or_many(line, monkeypatch):
 
 
 def test_excited(line):
-    assert identify(line, formula="y ~ x").verdicts == ["All parameters were excited."]
+    found = identify(line, formula="y ~ x")
+    assert "All parameters were excited." in found.verdicts
+    assert found.judgement.severity == "good"
 
 
 def test_zero_regressor_is_named(line):
@@ -112,7 +114,7 @@ def test_estimates_round_trip(plant, tmp_path, suffix):
     assert read["skipped"].value_counts().to_dict() == {"used": 398, "missing": 2}
     np.testing.assert_array_equal(read["time"], plant["time"])
     np.testing.assert_array_equal(read["estimate:y2:u1(k)"], found.theta[:, 2, 1])
-    np.testing.assert_array_equal(read["standard_error:y1:-y1(k-1)"], found.standard_error[:, 0, 0])
+    np.testing.assert_array_equal(read["standard_error:y1:y1(k-1)"], found.standard_error[:, 0, 0])
     known = read["error:y1"].notna()
     np.testing.assert_allclose(
         read["measured:y1"][known], (read["predicted:y1"] + read["error:y1"])[known], atol=1e-12

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..judgement import Finding
+from ..judgement.residuals import own_past, whiteness
 from .conditions import Conditions, conditions
 from .confidence import Confidence, confidence
 from .direction import describe_direction
@@ -52,7 +54,14 @@ class Certificate:
 
     @property
     def verdict(self) -> str:
-        """One sentence: can the estimate be trusted?"""
+        """One sentence: can the estimate be trusted?
+
+        Errors that follow from their own past come first: a wrong model is wrong whatever the
+        excitation. `forgetting.record.identify` judges more than arrays tell.
+        """
+        residuals = self._residuals()
+        if residuals is not None and residuals.severity == "wrong":
+            return str(residuals)
         silent = self.excitation.silent_subspace.T
         if self.windup_occurred and self.windup.direction is not None:
             where = describe_direction(self.windup.direction, self.names)
@@ -70,10 +79,27 @@ class Certificate:
             return "No windup: every direction is excited and the estimate is stable."
         return f"No windup; that the error vanishes {_short(last.outcome)} ({last.reason})."
 
+    def _residuals(self) -> Finding | None:
+        """The judge on the whitened errors of the first output."""
+        if self.confidence is None:
+            return None
+        error, width = (
+            part[:, 0, 0] for part in (self.confidence.error, self.confidence.half_width)
+        )
+        whole = self.confidence.counted[:, 0, 0] & (width > 0) & np.isfinite(width)
+        spread = np.divide(error, width, out=np.full_like(error, np.nan), where=whole)
+        return whiteness(own_past(spread), "the output")
+
     def __str__(self) -> str:
         """The verdict and what stands behind it."""
         parts = ["Verdict", _indent(self.verdict), _indent(self.windup.describe(self.names))]
-        parts += ["Excitation", _indent(self._excitation())]
+        return "\n".join([*parts, self.theory()])
+
+    def theory(self, first: int = 0) -> str:
+        """What theory says of the estimator, whatever the model; `first`: rows not examined."""
+        what = "For a right model whose parameters stand still"
+        rest = f", on the rows from {first + 1} on" if first else ""
+        parts = [f"{what}{rest}:", "Excitation", _indent(self._excitation())]
         parts += ["Conditions", _indent(self._conditions())]
         parts += ["Stability", _indent(str(self.stability))]
         if self.ultimate_bound is not None:

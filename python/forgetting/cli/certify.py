@@ -3,24 +3,21 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-import forgetting as fg
 from forgetting.cli import options
-from forgetting.cli.identify import parse_covariance, parse_orders
+from forgetting.cli.identify import check_targets, parse_covariance, parse_orders
+from forgetting.cli.progress import progress_bar
 from forgetting.cli.rulebook import make_gate, make_rule
 from forgetting.cli.source import Rates, read_record, show_record
-from forgetting.cli.tables import say
+from forgetting.cli.tables import print_judgement, print_written, say
 
 if TYPE_CHECKING:
-    from forgetting.record.samples import Samples
-
-DIFFUSE = 1e5
-"""P before the first sample when none is given, as in `forgetting.RLS`."""
-OUTPUTS = ["error", "forgetting_factor", "skipped", "covariance", "prior_covariance", "weight"]
+    from forgetting.analysis import Certificate
+    from forgetting.record import Identification
 
 
 def certify(
@@ -29,6 +26,7 @@ def certify(
     output: options.Outputs = None,
     input: options.Inputs = None,
     arx: options.Orders = None,
+    offset: options.Offset = True,
     time: options.Time = None,
     gap: options.Gap = None,
     missing: options.Missing = None,
@@ -47,56 +45,91 @@ def certify(
     settings: options.Settings = None,
     gate: options.GateText = None,
     initial_covariance: options.InitialCovariance = "auto",
+    report: options.Report = None,
     as_json: options.Json = False,
 ) -> int:
-    """Say when to trust the estimates: excitation, stability, bounds and windup.
+    """Say when to trust the estimates: the judgement of `identify`, and what theory guarantees.
 
     Exit code 0, or 1 when the covariance wound up. Samples with a missing value are skipped.
-    Without an initial covariance regressors are measured in units of their root mean square.
     """
-    from forgetting import analysis
-    from forgetting.record.identify import build, listed
+    from forgetting.record.identify import identify
+    from forgetting.record.theory import theory
 
-    source = read_record(
-        record, time, gap, missing, part, encoding, Rates(every, hold, mean, nearest, age)
+    check_targets(record, report, None, None)
+    # not kept here: the table is as large as all that is made of it
+    source = partial(
+        read_record,
+        record,
+        time,
+        gap,
+        missing,
+        part,
+        encoding,
+        Rates(every, hold, mean, nearest, age),
     )
     if show:
-        show_record(source)
+        show_record(source())
         return 0
     made = make_rule(rule or "subspace", forgetting_factor, threshold, settings or [], rate)
-    orders = None if arx is None else parse_orders(arx)
-    samples = build(source, formula, listed(output or ()), listed(input or ()), orders)
-    start = parse_covariance(initial_covariance)
-    units = np.ones(samples.phi.shape[1])
-    if start is None:
-        start, units = DIFFUSE, root_mean_squares(samples.phi)
-    phi = samples.phi / units
-    est = fg.RLS(
-        phi.shape[1],
-        rule=made,
-        gate=make_gate(gate),
-        targets=samples.y.shape[1],
-        initial_covariance=start,
+    before, start = make_gate(gate), parse_covariance(initial_covariance)
+    with progress_bar(f"certifying {record.name}") as progress:
+        found = identify(
+            source(),
+            formula=formula,
+            output=output or (),
+            input=input or (),
+            arx=None if arx is None else parse_orders(arx),
+            offset=offset,
+            rule=made,
+            gate=before,
+            initial_covariance=start,
+            progress=progress,
+        )
+    certificate, first = theory(found, made, before, start)
+    if report is not None:
+        from forgetting.report import save_certificate
+
+        save_certificate(found, certificate, first, report)
+    if as_json:
+        say(in_json(found, certificate, first))
+    else:
+        print_certificate(found, certificate, first)
+        print_written([] if report is None else [report])
+    return 0 if found.judgement["windup"].severity == "good" else 1
+
+
+def print_certificate(found: Identification, certificate: Certificate, first: int) -> None:
+    """Print the judgement and what theory says."""
+    say(f"{found.samples.clock_in_words()}\nrule {found.rule_in_words}")
+    print_judgement(found.judgement)
+    say(f"\n{certificate.theory(first)}")
+
+
+def in_json(found: Identification, certificate: Certificate, first: int) -> str:
+    """The judgement, the certificate and the clock as JSON."""
+    theory = certificate.to_dict()
+    written = found.judgement.to_dict()
+    return json.dumps(
+        {
+            "verdict": written["verdict"],
+            "judgement": written,
+            "windup_occurred": bool(found.trace.windup.any()),
+            "windup": windup(found),
+            "first_row_examined": first + 1,
+            **{name: theory[name] for name in ("excitation", "conditions", "stability")},
+            "confidence": theory["confidence"],
+            "clock": found.samples.clock_as_data(),
+        },
+        indent=2,
     )
-    start = np.asarray(est.covariance)
-    found = analysis.certify(
-        est.run(phi, samples.y, outputs=OUTPUTS, missing="skip"),
-        phi,
-        initial_covariance=start,
-        rule=made,
-        names=list(samples.regressors),
-    )
-    say(in_json(found, samples) if as_json else f"{samples.clock_in_words()}\n{found}")
-    return 1 if found.windup_occurred else 0
 
 
-def root_mean_squares(phi: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The unit of each regressor: the root mean square of its values that are there and not 0."""
-    squares = np.where(np.isnan(phi), 0.0, phi) ** 2
-    counts = np.count_nonzero(squares, axis=0)
-    return np.where(counts, np.sqrt(squares.sum(axis=0) / np.maximum(counts, 1)), 1.0)
-
-
-def in_json(found: Any, samples: Samples) -> str:
-    """The certificate and the clock as JSON."""
-    return json.dumps(found.to_dict() | {"clock": samples.clock_as_data()}, indent=2)
+def windup(found: Identification) -> dict[str, Any]:
+    """Where the monitor saw windup."""
+    rows = np.flatnonzero(found.trace.windup)
+    return {
+        "occurred": bool(len(rows)),
+        "sample": int(rows[0]) if len(rows) else None,
+        "samples": len(rows),
+        "persists": bool(found.trace.windup[-1]),
+    }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -63,18 +64,26 @@ def identify(
     check_targets(record, report, estimates, plot)
     if dtype not in ("float64", "float32"):
         raise RecordError(f"--dtype is {dtype!r}; it must be float64 or float32")
-    source = read_record(
-        record, time, gap, missing, part, encoding, Rates(every, hold, mean, nearest, age)
+    # not kept here: the table is as large as all that is made of it
+    source = partial(
+        read_record,
+        record,
+        time,
+        gap,
+        missing,
+        part,
+        encoding,
+        Rates(every, hold, mean, nearest, age),
     )
     if show:
-        return show_record(source)
+        return show_record(source())
     if half_life is not None and (forgetting_factor is not None or rate is not None):
         raise RecordError("--half-life goes without --forgetting-factor and --rate")
     chosen = rule_or_auto(rule, forgetting_factor, threshold, settings or [], rate)
     before = make_gate(gate)
     with progress_bar(f"identifying {record.name}") as progress:
         found = identify_record(
-            source,
+            source(),
             formula=formula,
             output=output or (),
             input=input or (),

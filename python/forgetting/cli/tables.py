@@ -13,9 +13,10 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from forgetting.words.rounding import brief, with_error
+from forgetting.words.rounding import brief, with_error, with_unit
 
 if TYPE_CHECKING:
+    from forgetting.judgement import Judgement
     from forgetting.record import Identification
 
 
@@ -58,19 +59,45 @@ def table(title: str, header: Sequence[str], rows: Sequence[Sequence[str]]) -> T
 
 
 def print_identification(found: Identification) -> None:
-    """Print parameters, scores, counts and verdicts."""
+    """Print the verdict, parameters, scores, counts and findings."""
     out = console()
     samples = found.samples
     out.print(f"[bold]{escape(samples.source)}[/]  {escape(samples.model)}")
     for word, text in samples.facts()[1:]:
         out.print(escape(text if word == "clock" else f"{word} {text}"))
-    out.print(f"rule {escape(found.rule_in_words)}\n")
+    out.print(f"rule {escape(found.rule_in_words)}")
+    print_headline(found.judgement, out)
     out.print(parameters(found))
+    out.print(escape(found.uncertainty), "\n")
     out.print(scores(found))
     out.print(f"samples     {len(samples.y)}: {found.used} used, {found.left_out()}")
     out.print(f"covariance  largest / smallest eigenvalue of P at the end: {spread(found)}")
-    for verdict in found.verdicts:
-        out.print(f"\n{escape(verdict)}", soft_wrap=False)
+    out.print()
+    print_findings(found.judgement, out)
+
+
+MARKS = {"wrong": ("✗", "red"), "warning": ("!", "yellow"), "good": ("✓", "green")}
+"""A sign and a colour for each severity."""
+
+
+def print_judgement(judgement: Judgement) -> None:
+    """Print the verdict and all findings."""
+    out = console()
+    print_headline(judgement, out)
+    print_findings(judgement, out)
+
+
+def print_headline(judgement: Judgement, out: Console) -> None:
+    """The verdict and the first thing to do, in the colour of its severity."""
+    colour = MARKS[judgement.severity][1]
+    out.print(f"[bold {colour}]verdict {escape(judgement.verdict)}[/]\n")
+
+
+def print_findings(judgement: Judgement, out: Console) -> None:
+    """A line for each finding, the worst first."""
+    for finding in judgement.findings:
+        mark, colour = MARKS[finding.severity]
+        out.print(f"[{colour}]{mark}[/] {finding.name:<11} {escape(str(finding))}")
 
 
 def spread(found: Identification) -> str:
@@ -83,22 +110,34 @@ def spread(found: Identification) -> str:
 def parameters(found: Identification) -> Table:
     """Final values ± standard errors."""
     several = len(found.samples.outputs) > 1
+    known = any(found.unit(output, name) for output, name, *_ in found.final())
     rows = [
-        (f"{output}: {name}" if several else name, *with_error(value, error))
+        (
+            f"{output}: {name}" if several else name,
+            *with_error(value, error),
+            *([found.unit(output, name) or ""] if known else []),
+        )
         for output, name, value, error in found.final()
     ]
-    return table("Parameters", ("regressor", "value", "± standard error"), rows)
+    header = ("regressor", "value", "± standard error")
+    return table("Parameters", (*header, "unit") if known else header, rows)
 
 
 def scores(found: Identification) -> Table:
     """One-step RMSE beside the baselines."""
     result = found.scores
     rows = [
-        (name, brief(result.model[j]), brief(result.no_forgetting[j]), brief(result.last_value[j]))
+        (
+            with_unit(name, found.unit(name)),
+            brief(result.model[j]),
+            f"{result.fit[j]:.2f} %".replace("-", "−"),
+            brief(result.no_forgetting[j]),
+            brief(result.last_value[j]),
+        )
         for j, name in enumerate(found.samples.outputs)
     ]
     title = f"One-step RMSE on {result.samples} samples"
-    return table(title, ("output", "this model", "no forgetting", "last value"), rows)
+    return table(title, ("output", "this model", "fit", "no forgetting", "last value"), rows)
 
 
 def print_written(paths: Sequence[Path]) -> None:

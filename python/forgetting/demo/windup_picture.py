@@ -41,7 +41,7 @@ def windup(exponential: Identification, subspace: Identification, rows: slice) -
         (exponential, VERMILLION, "exponential forgetting"),
         (subspace, BLUE, "subspace forgetting"),
     ):
-        gain, error = found.theta[rows, 0, 0], found.standard_error[rows, 0, 0]
+        gain, error = found.theta[rows, 0, 0], found.claimed_standard_error[rows, 0, 0]
         certainty.plot(x, error, color=colour, label=name, lw=2)
         estimate.fill_between(x, gain - 2 * error, gain + 2 * error, color=colour, alpha=0.2, lw=0)
         estimate.plot(x, gain, color=colour, lw=1.8)

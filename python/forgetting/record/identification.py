@@ -12,14 +12,17 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from forgetting.analysis import Excited, Guarantee, excited, guaranteed_bounds
+from forgetting.analysis import Excited, Guarantee, guaranteed_bounds
 from forgetting.files import check_outputs
+from forgetting.judgement import Judgement
 from forgetting.record import estimates
 from forgetting.record.counts import Counts
+from forgetting.record.drift import Drift, claim, drift
 from forgetting.record.samples import Samples
 from forgetting.record.scores import Scores
 from forgetting.record.trace import USED
 from forgetting.record.uncertainty import noise_variance, standard_errors
+from forgetting.record.units import parameter_unit
 
 Array = NDArray[np.float64]
 
@@ -39,21 +42,27 @@ class Identification(Counts):
     rule : Rule
         The forgetting rule.
     scores : Scores
-        One-step errors of the model and of two baselines, on the same samples.
-    verdicts : list of str
-        Plain sentences on what the record excited.
+        One-step errors of the model and of baselines, on the same samples.
+    judgement : Judgement
+        What speaks for and against the result, and what to do first.
+    excited : Excited
+        What the samples within the rule's memory excite, all along the record.
     initial_covariance : ndarray, shape (n, n)
         P before the first sample, for regressors in these units.
     units : ndarray, shape (n,)
         What regressors were measured in at the end; 1 where P before the first sample was given.
+    settings : dict
+        Of estimators on this record: targets, initial_covariance and dtype.
     """
 
     samples: Samples
     rule: Any
     scores: Scores
-    verdicts: list[str]
+    judgement: Judgement
+    excited: Excited
     initial_covariance: Array
     units: Array
+    settings: dict[str, Any]
 
     @cached_property
     def noise_variance(self) -> Array:
@@ -61,9 +70,57 @@ class Identification(Counts):
         return noise_variance(self.trace)
 
     @cached_property
+    def drift(self) -> Drift | None:
+        """How parameters drift and noise remembers, most likely; None for too short a record."""
+        return drift(self.samples, self.settings)
+
+    @cached_property
     def standard_error(self) -> Array:
-        """Standard error of each parameter after each sample, (T, n, m)."""
+        """± of each parameter after each sample, (T, n, m).
+
+        Of a bank, which supposes nothing, that of `drift`: two of them hold about 95 % of what the
+        parameter may be. Of a rule what its P says; `uncertainty` says how right that is here.
+        """
+        if self.trace.weights is None or self.drift is None:
+            return self.claimed_standard_error
+        found = self.drift.standard_error(self.theta)
+        return np.where(np.isnan(self.claimed_standard_error), np.nan, found)
+
+    @cached_property
+    def final_standard_error(self) -> Array:
+        """The last of `standard_error`, (n, m)."""
+        claimed = np.sqrt(self.trace.variance[-1][:, None] * self.noise_variance[-1])
+        if self.trace.weights is None or self.drift is None:
+            return np.asarray(claimed)
+        found = self.drift.final_standard_error(self.theta[-1])
+        return np.where(np.isnan(claimed), np.nan, found)
+
+    @cached_property
+    def claimed_standard_error(self) -> Array:
+        """What P says of each parameter after each sample, (T, n, m): √(σ² P_ii).
+
+        It is right if the parameters drift as the rule supposes and the noise is white.
+        """
         return standard_errors(self.trace)
+
+    @property
+    def verdicts(self) -> list[str]:
+        """The findings of the judgement in plain sentences, the worst first."""
+        return self.judgement.sentences()
+
+    @cached_property
+    def noise(self) -> Array:
+        """Standard deviation of the noise of each output, (m,), over the last quarter of samples.
+
+        The root mean square of e/√(1 + s), s the leverage; of a bank, whose members that do not
+        count swell the leverage, of the errors themselves.
+        """
+        used = np.flatnonzero(self.trace.skipped == USED)
+        last = used[-max(len(used) // 4, 1) :]
+        if not len(last):
+            return np.full(self.theta.shape[2], np.nan)
+        spread = 1 + self.trace.leverage[last] * (self.trace.weights is None)
+        return np.asarray(np.sqrt(np.mean(self.trace.error[last] ** 2 / spread[:, None], axis=0)))
 
     @property
     def theta(self) -> Array:
@@ -77,10 +134,43 @@ class Identification(Counts):
 
     @property
     def parameters(self) -> pd.DataFrame:
-        """Final values: one row per output and regressor, with value and standard_error."""
-        return pd.DataFrame(
-            self.final(), columns=["output", "parameter", "value", "standard_error"]
-        )
+        """Final values: output, parameter, value, standard_error and unit (None if not known)."""
+        rows = [(*row, self.unit(*row[:2])) for row in self.final()]
+        columns = ["output", "parameter", "value", "standard_error", "unit"]
+        return pd.DataFrame(rows, columns=columns).astype({"unit": object})
+
+    def unit(self, output: str, regressor: str | None = None) -> str | None:
+        """Unit of an output, or of its parameter of a regressor; None if the record names none."""
+        units = self.samples.found.units
+        return units.get(output) if regressor is None else parameter_unit(output, regressor, units)
+
+    @property
+    def uncertainty(self) -> str:
+        """What ± counts with, and for a rule by how much it is off where it counts wrongly."""
+        if self.drift is None:
+            return "± is what P says: the record is too short to tell how parameters drift."
+        if self.trace.weights is not None:
+            return self.drift.describe()
+        right = self.drift.final_standard_error(self.theta[-1])
+        return claim(self.final_standard_error, right, self.drift)
+
+    @property
+    def memory(self) -> float:
+        """Samples that the estimate stands on at the end; infinite if nothing is forgotten.
+
+        Of a bank its own figure. Of a rule n over the part h = s/(1 + s) that a sample decides of
+        its own fit, on average over the last quarter of the samples used, s being the leverage.
+        """
+        if self.trace.memory is not None:
+            return float(self.trace.memory[-1])
+        if (self.trace.forgetting_factor[self.trace.skipped == USED] == 1).all() and not np.any(
+            self.trace.variance[-1] > self.trace.variance.min(axis=0)
+        ):
+            return float("inf")
+        leverage = self.trace.leverage[self.trace.skipped == USED]
+        leverage = leverage[-max(len(leverage) // 4, 1) :]
+        own = float(np.mean(leverage / (1 + leverage))) if len(leverage) else 0.0
+        return self.theta.shape[1] / own if own > 0 else float("inf")
 
     @property
     def rule_in_words(self) -> str:
@@ -89,14 +179,13 @@ class Identification(Counts):
             return repr(self.rule)
         memory = self.trace.memory[-1]
         length = f"{memory:.3g} samples" if np.isfinite(memory) else "the whole record"
-        return (
-            f"bank of {self.trace.weights.shape[1]} members, at the end with a memory of {length}"
-        )
+        return f"bank of {len(self.trace.weights)} members, at the end with a memory of {length}"
 
     def final(self) -> list[tuple[str, str, float, float]]:
         """Output, regressor, final value and its standard error, output by output."""
+        errors = self.final_standard_error
         return [
-            (output, name, float(self.theta[-1, i, j]), float(self.standard_error[-1, i, j]))
+            (output, name, float(self.theta[-1, i, j]), float(errors[i, j]))
             for j, output in enumerate(self.samples.outputs)
             for i, name in enumerate(self.samples.regressors)
         ]
@@ -116,19 +205,6 @@ class Identification(Counts):
             forgetting_factors=(factors.min(initial=1.0), factors.max(initial=0.0) or 1.0),
             regressor_bound=float(squares.max(initial=0.0)),
         )
-
-    @cached_property
-    def excited(self) -> Excited:
-        """What the samples within the rule's memory excite, all along the record."""
-        used = self.trace.skipped == USED
-        forgotten = 1.0 - float(np.median(self.trace.forgetting_factor[used])) if used.any() else 0
-        total, n = self.samples.phi.shape
-        longest = max(1, min(total, max(2 * n, total // 4)))
-        remembered = 1 / max(forgotten, 1e-9)
-        if self.trace.memory is not None and used.any():
-            remembered = float(np.median(self.trace.memory[used]))
-        window = int(np.clip(np.ceil(remembered), min(2 * n, longest), longest))
-        return excited(self.samples.phi, window)
 
     @property
     def covariance_ratio(self) -> float:
@@ -154,9 +230,13 @@ class Identification(Counts):
             "model": self.samples.model,
             "rule": self.rule_in_words,
             "parameters": rows,
+            "uncertainty": self.uncertainty,
+            "drift": None if self.drift is None else self.drift.to_dict(),
             "rmse": self.scores.by_output(self.samples.outputs),
             "read_as": self.samples.found.to_dict(),
             "clock": self.samples.clock_as_data(),
+            "noise": dict(zip(self.samples.outputs, self.noise.tolist(), strict=True)),
+            "memory": self.memory,
             "samples": self.counts() | {"scored": self.scores.samples},
             "covariance": {
                 "smallest_eigenvalue": float(ends[0]),
@@ -164,6 +244,7 @@ class Identification(Counts):
                 "ratio": self.covariance_ratio,
             },
             "windup_samples": int(self.trace.windup.sum()),
+            "judgement": self.judgement.to_dict(),
             "verdicts": self.verdicts,
         }
         return dict(finite(found))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,16 +12,18 @@ from numpy.typing import ArrayLike, NDArray
 
 import forgetting as fg
 from forgetting.record.dynamics import dynamics
+from forgetting.record.feedback import Feedback, feedback
 from forgetting.record.half_life import with_half_life
 from forgetting.record.identification import Identification
+from forgetting.record.judge import Judged, judge, settled
 from forgetting.record.missing import Words
 from forgetting.record.names import clean
 from forgetting.record.origin import origin
 from forgetting.record.read import Record, read
+from forgetting.record.remembered import remembered
 from forgetting.record.samples import Samples
 from forgetting.record.scores import score
-from forgetting.record.trace import Progress, errors_without_forgetting, run
-from forgetting.record.verdicts import verdicts
+from forgetting.record.trace import Progress, errors_of, errors_without_forgetting, run
 from forgetting.words.errors import RecordError
 
 if TYPE_CHECKING:
@@ -108,6 +111,7 @@ def identify(
     """
     source = read(record, time, gap=gap, missing=missing)
     samples = build(source, formula, listed(output), listed(input), arx, offset)
+    del record, source  # the table, which nobody else may hold, is as large as what is made of it
     time_of: NDArray[np.float64] | None = None
     if half_life is not None:
         rule, time_of = with_half_life(rule, half_life, samples)
@@ -122,15 +126,56 @@ def identify(
     moved = here.moved(samples)
     trace = run(estimator, moved, progress, time_of)
     units = np.ones(len(initial)) if estimator.units is None else estimator.units
+    past = feedback(samples)
+    plain = errors_without_forgetting(moved, settings)
+    alone = errors_without_inputs(moved, past, rule, gate, settings, time_of)
+    scores = score(samples, trace.error, plain, alone)
+    excited = remembered(moved, trace)
+    judged = Judged(
+        samples=moved,
+        trace=trace,
+        scores=score(samples, trace.error, plain, alone, settled(trace)),
+        feedback=past,
+        excited=excited,
+        initial_variance=np.diag(initial) / np.square(units),
+        health=estimator.health() if isinstance(estimator, fg.RLS) else None,
+    )
+    judgement = judge(judged)  # before the trace is changed
     return Identification(
         samples=samples,
         trace=here.back(trace),
         rule=rule_of(estimator, rule),
-        scores=score(samples, trace.error, errors_without_forgetting(moved, settings)),
-        verdicts=verdicts(moved, trace, np.diag(initial) / np.square(units)),
+        scores=scores,
+        judgement=judgement,
+        excited=excited,
         initial_covariance=initial,
         units=np.asarray(units, dtype=np.float64),
+        settings=settings,
     )
+
+
+def errors_without_inputs(
+    samples: Samples,
+    past: Feedback,
+    rule: Any,
+    gate: Any,
+    settings: dict[str, Any],
+    time: NDArray[np.float64] | None,
+) -> NDArray[np.float64] | None:
+    """One-step errors (T, m) of the same rule on past outputs and the constant alone.
+
+    None where that is the model itself, where there are no past outputs, or where the rule has
+    settings for each parameter.
+    """
+    phi = samples.known
+    kept = [i for i in range(phi.shape[1]) if i in past.lags or (phi[:, i] == phi[0, i]).all()]
+    start, words = settings["initial_covariance"], repr(rule)
+    single = "[" not in words and "(" not in words.partition("(")[2]
+    if not past.lags or len(kept) == phi.shape[1] or not single or np.ndim(start):
+        return None
+    estimator = estimator_for(len(kept), rule, gate=gate, **settings)
+    part = replace(samples, phi=np.ascontiguousarray(samples.phi[:, kept]))
+    return errors_of(estimator, part, settings["dtype"], time)
 
 
 def estimator_for(parameters: int, rule: Any, **settings: Any) -> Any:

@@ -46,24 +46,33 @@ class Origin:
             return samples
         return replace(samples, phi=samples.phi - self.phi, y=samples.y - self.y)
 
+    def theta(self, theta: Array) -> Array:
+        """Estimates (T, n, m) over `moved` samples in terms of the samples; changed in place."""
+        if self.constant is not None:
+            at_zero = self.y - weighted_sum(self.phi, theta)
+            theta[:, self.constant] += at_zero / self.level
+        return theta
+
+    def change(self) -> Array:
+        """What makes of parameters over `moved` samples those of the samples, (n, n)."""
+        change = np.eye(len(self.phi))
+        if self.constant is not None:
+            change[self.constant] -= self.phi / self.level
+        return change
+
     def back(self, trace: Trace) -> Trace:
-        """What a run over `moved` samples found, in the terms of the samples as they are.
+        """What a run over `moved` samples found, in the terms of the samples; changed in place.
 
         The variance of the constant is exact after each piece of the run, and drawn straight in
         between.
         """
         if self.constant is None:
             return trace
-        c, level = self.constant, self.level
-        theta = trace.theta.copy()
-        theta[:, c] += (self.y - weighted_sum(self.phi, theta)) / level
-        change = np.eye(len(self.phi))
-        change[c] -= self.phi / level
-        variance = trace.variance.copy()
+        c, change = self.constant, self.change()
         ends = np.einsum("i,kij,j->k", change[c], trace.covariances, change[c])
-        variance[:, c] = np.interp(np.arange(len(variance)), trace.rows, ends)
+        trace.variance[:, c] = np.interp(np.arange(len(trace.variance)), trace.rows, ends)
         covariance = change @ trace.covariance @ change.T
-        return replace(trace, theta=theta, variance=variance, covariance=covariance)
+        return replace(trace, theta=self.theta(trace.theta), covariance=covariance)
 
 
 def origin(samples: Samples, moves: bool = True) -> Origin:
@@ -77,15 +86,22 @@ def origin(samples: Samples, moves: bool = True) -> Origin:
     >>> here.constant, here.phi.tolist(), here.y.tolist()
     (0, [0.0, 300.0], [5.0])
     """
-    complete = samples.complete
-    phi, y = samples.phi[complete], samples.y[complete]
-    same = np.flatnonzero((phi == phi[0]).all(axis=0) & (phi[0] != 0))
-    if len(phi) < 2 or len(same) == 0 or not moves:
-        return Origin(None, 1.0, np.zeros(phi.shape[1]), np.zeros(y.shape[1]))
-    constant = int(same[0])
-    first = phi[0].copy()
+    constant, level = constant_of(samples) if moves else (None, 1.0)
+    if constant is None:
+        return Origin(None, 1.0, np.zeros(samples.phi.shape[1]), np.zeros(samples.y.shape[1]))
+    row = int(samples.complete.argmax())
+    first = samples.phi[row].copy()
     first[constant] = 0.0
-    return Origin(constant, float(phi[0, constant]), first, y[0].copy())
+    return Origin(constant, level, first, samples.y[row].copy())
+
+
+def constant_of(samples: Samples) -> tuple[int | None, float]:
+    """The column that is a constant, and its value; (None, 1.0) if there is none."""
+    phi = samples.known
+    same = np.flatnonzero((phi == phi[0]).all(axis=0) & (phi[0] != 0))
+    if len(phi) < 2 or not len(same):
+        return None, 1.0
+    return int(same[0]), float(phi[0, same[0]])
 
 
 def weighted_sum(weights: Array, values: Array) -> Array:

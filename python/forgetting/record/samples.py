@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -49,10 +50,16 @@ class Samples:
     cut: int = 0
     found: Found = field(default_factory=Found)
 
-    @property
+    @cached_property
     def complete(self) -> NDArray[np.bool_]:
         """Rows without any missing value, (T,)."""
-        return ~np.isnan(np.hstack([self.phi, self.y])).any(axis=1)  # type: ignore[return-value]
+        missing = np.isnan(self.phi).any(axis=1) | np.isnan(self.y).any(axis=1)
+        return np.asarray(~missing, dtype=np.bool_)
+
+    @property
+    def known(self) -> Array:
+        """Regressors of the complete rows, (T', n); no copy if all are."""
+        return self.phi if self.complete.all() else self.phi[self.complete]
 
     def check(self) -> Samples:
         """Refuse infinite regressors and a record in which no sample is complete."""

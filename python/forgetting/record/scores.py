@@ -1,4 +1,4 @@
-"""One-step scores: the model beside two baselines, on the same samples."""
+"""One-step scores: the model beside baselines, on the same samples."""
 
 from __future__ import annotations
 
@@ -26,40 +26,68 @@ class Scores:
         Predicting that the output stays at its last measured value.
     no_forgetting : tuple of float
         The same model with the rule that never forgets.
+    mean : tuple of float
+        Predicting the mean over the samples scored.
+    without_inputs : tuple of float or None
+        The same model and rule on past outputs alone; None for a model without past outputs, or
+        with nothing else.
     samples : int
-        Samples scored, the same for all three.
+        Samples scored, the same for all.
     """
 
     model: tuple[float, ...]
     last_value: tuple[float, ...]
     no_forgetting: tuple[float, ...]
+    mean: tuple[float, ...]
+    without_inputs: tuple[float, ...] | None
     samples: int
 
-    def by_output(self, outputs: Sequence[str]) -> dict[str, dict[str, float]]:
-        """The three errors of each output, by name."""
+    @property
+    def fit(self) -> tuple[float, ...]:
+        """100 (1 - ‖error‖/‖y - mean‖) of each output, in percent; NaN for a constant one."""
+        pairs = zip(self.model, self.mean, strict=True)
+        return tuple(100 * (1 - e / m) if m > 0 else float("nan") for e, m in pairs)
+
+    def by_output(self, outputs: Sequence[str]) -> dict[str, dict[str, float | None]]:
+        """The errors of each output, and the fit in percent, by name."""
         return {
             output: {
                 "model": self.model[j],
                 "last_value": self.last_value[j],
                 "no_forgetting": self.no_forgetting[j],
+                "mean": self.mean[j],
+                "without_inputs": None if self.without_inputs is None else self.without_inputs[j],
+                "fit_percent": self.fit[j],
             }
             for j, output in enumerate(outputs)
         }
 
 
-def score(samples: Samples, error: Array, error_without_forgetting: Array) -> Scores:
+def score(
+    samples: Samples,
+    error: Array,
+    error_without_forgetting: Array,
+    error_without_inputs: Array | None = None,
+    among: NDArray[np.bool_] | None = None,
+) -> Scores:
     """Score on every complete sample but the start.
 
     The start is the first n complete samples, n the number of regressors: before them n parameters
     do not follow from any data, and every estimator shows only its initial guess. A sample also
-    needs an earlier measured output, which the last-value baseline repeats.
+    needs an earlier measured output, which the last-value baseline repeats. `among` (T,) leaves
+    out more samples.
     """
     previous = last_measured(samples.y)
     scored = started(samples) & ~np.isnan(previous).any(axis=1)
+    scored &= True if among is None else among
+    level = samples.y[scored].mean(axis=0) if scored.any() else 0.0
+    alone = error_without_inputs
     return Scores(
         model=rms(error[scored]),
         last_value=rms((samples.y - previous)[scored]),
         no_forgetting=rms(error_without_forgetting[scored]),
+        mean=rms((samples.y - level)[scored]),
+        without_inputs=None if alone is None else rms(alone[scored]),
         samples=int(scored.sum()),
     )
 

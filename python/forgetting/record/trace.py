@@ -64,14 +64,14 @@ class Trace:
     rows : ndarray of int, shape (K,)
         Rows after which the eigenvalues were taken.
     eigenvalues : ndarray, shape (K, n)
-        Eigenvalues of P, ascending; for regressors in units of their typical size where P
-        before the first sample was not given.
+        Eigenvalues of P, ascending; for regressors in units of their typical size, as known at the
+        end, where P before the first sample was not given.
     covariances : ndarray, shape (K, n, n)
         P after these rows.
     memory : ndarray, shape (T,), or None
         Of a bank: over how many samples it remembers.
-    weights : ndarray, shape (T, members), or None
-        Of a bank: how far each member is believed.
+    weights : ndarray, shape (members,), or None
+        Of a bank: how far each member is believed at the end.
     covariance : ndarray, shape (n, n)
         P after the last sample.
     """
@@ -107,29 +107,56 @@ def run(
     y = np.ascontiguousarray(samples.y if samples.y.shape[1] > 1 else samples.y[:, 0], dtype=dtype)
     total = len(y)
     last = LastTime()
-    pieces: list[Any] = []
+    history = History(samples, isinstance(estimator, fg.Bank))
     rows: list[int] = []
     covariances: list[NDArray[Any]] = []
-    eigenvalues: list[NDArray[Any]] = []
-    outputs = (*HISTORY, "memory", "weights") if isinstance(estimator, fg.Bank) else HISTORY
     for start, stop in chunks(total, phi.shape[1]):
         try:
             part = slice(start, stop)
             when = None if time is None else last.ahead_of(time[part])
-            piece = estimator.run(phi[part], y[part], outputs=outputs, missing="skip", time=when)
+            piece = estimator.run(
+                phi[part], y[part], outputs=tuple(history.names), missing="skip", time=when
+            )
         except (fg.InvalidInput, fg.NumericalRange) as error:
             raise type(error)(in_rows(str(error), start)) from None
         if time is not None:
             last.note(time[part], samples.complete[part])
-        pieces.append(piece)
+        history.put(start, stop, piece)
         rows.append(stop - 1)
         covariances.append(estimator.covariance.astype(np.float64))
-        units = np.ones(phi.shape[1]) if estimator.units is None else estimator.units
-        eigenvalues.append(np.linalg.eigvalsh(covariances[-1] * np.outer(units, units)))
         if progress is not None:
             progress(stop, total)
-    ends = (np.array(rows), np.array(eigenvalues), np.array(covariances))
-    return joined(pieces, samples, ends)
+    # all in the units of the end: those of before would show as steps
+    units = np.ones(phi.shape[1]) if estimator.units is None else estimator.units
+    path = np.array(covariances)
+    return Trace(
+        **history.arrays,
+        weights=np.asarray(estimator.weights) if isinstance(estimator, fg.Bank) else None,
+        rows=np.array(rows),
+        eigenvalues=np.linalg.eigvalsh(path * np.outer(units, units)),
+        covariances=path,
+        covariance=path[-1],
+    )
+
+
+class History:
+    """What a run keeps of every sample, filled piece by piece: nothing is there twice."""
+
+    def __init__(self, samples: Samples, bank: bool) -> None:
+        total, outputs, n = len(samples.y), samples.y.shape[1], samples.phi.shape[1]
+        shapes = {"theta": (total, n, outputs), "error": (total, outputs), "variance": (total, n)}
+        kinds: dict[str, Any] = {"skipped": np.uint8, "gate": np.uint8, "windup": np.bool_}
+        self.names = (*HISTORY, "memory") if bank else HISTORY
+        self.arrays: dict[str, Any] = {
+            name: np.empty(shapes.get(name, (total,)), dtype=kinds.get(name, np.float64))
+            for name in self.names
+        }
+
+    def put(self, start: int, stop: int, piece: Any) -> None:
+        """Put what a piece of the run kept in its place."""
+        for name in self.names:
+            place = self.arrays[name][start:stop]
+            place[...] = getattr(piece, name).reshape(place.shape)
 
 
 def in_rows(message: str, start: int) -> str:
@@ -152,40 +179,15 @@ def chunks(total: int, parameters: int) -> list[tuple[int, int]]:
     return [(start, min(start + length, total)) for start in range(0, total, length)]
 
 
-def joined(
-    pieces: list[Any], samples: Samples, ends: tuple[NDArray[np.int64], Array, Array]
-) -> Trace:
-    """Put the pieces of a run behind one another, as float64."""
-    total, outputs, n = len(samples.y), samples.y.shape[1], samples.phi.shape[1]
-    rows, eigenvalues, covariances = ends
-    bank = pieces[0].memory is not None
-
-    def all_of(name: str) -> Array:
-        return np.concatenate([getattr(piece, name) for piece in pieces])
-
-    return Trace(
-        theta=all_of("theta").astype(np.float64).reshape(total, n, outputs),
-        error=all_of("error").astype(np.float64).reshape(total, outputs),
-        forgetting_factor=all_of("forgetting_factor").astype(np.float64),
-        leverage=all_of("leverage").astype(np.float64),
-        skipped=all_of("skipped").astype(np.uint8),
-        gate=all_of("gate").astype(np.uint8),
-        windup=all_of("windup").astype(bool),
-        variance=all_of("variance").astype(np.float64),
-        rows=rows,
-        eigenvalues=eigenvalues,
-        covariances=covariances,
-        covariance=covariances[-1],
-        memory=all_of("memory").astype(np.float64) if bank else None,
-        weights=all_of("weights").astype(np.float64) if bank else None,
-    )
-
-
 def errors_without_forgetting(samples: Samples, settings: dict[str, Any]) -> Array:
     """One-step errors (T, m) of the same model with the rule that never forgets."""
     estimator = fg.RLS(samples.phi.shape[1], rule=fg.rule("none"), **settings)
-    dtype = settings["dtype"]
+    return errors_of(estimator, samples, settings["dtype"])
+
+
+def errors_of(estimator: Any, samples: Samples, dtype: str, time: Array | None = None) -> Array:
+    """One-step errors (T, m) of an estimator over all samples; `time` (T,) if it counts."""
     phi = samples.phi.astype(dtype)
     y = (samples.y if samples.y.shape[1] > 1 else samples.y[:, 0]).astype(dtype)
-    result = estimator.run(phi, y, outputs=("error",), missing="skip")
+    result = estimator.run(phi, y, outputs=("error",), missing="skip", time=time)
     return np.asarray(result.error, dtype=np.float64).reshape(samples.y.shape)

@@ -1,4 +1,4 @@
-"""Noise variance and standard errors of the estimates.
+"""Noise variance, and the standard errors that P of a rule claims.
 
 With s = phi P phi' (P after forgetting, before measuring; the leverage of the sample) a one-step
 error has variance sigma² (1 + s), so e² / (1 + s) estimates the noise variance sigma² from one
@@ -18,9 +18,10 @@ record up to here supports, and P alone carries the memory.
 
 What the number means: P of a forgetting rule is the covariance of parameters that drift as that
 rule assumes (a random walk whose step covariance is what `forget` adds to P; Lai and Bernstein
-2024). If the parameters do not drift at all, it is an upper bound: with exponential forgetting the
-true variance is then about half of it. It does not cover a wrong model, nor errors that are
-correlated in time.
+2024), under white noise. If the parameters do not drift at all, it is an upper bound: with
+exponential forgetting the true variance is then about half of it. How they drift on a record, and
+whether its noise is white, is estimated in `forgetting.record.drift`, which the printed ± comes
+from.
 """
 
 from __future__ import annotations

@@ -48,3 +48,14 @@ def decimals(value: float, significant: int) -> int:
 def fixed(value: float, digits: int) -> str:
     """Round and write without exponent."""
     return f"{round(value, digits):.{max(digits, 0)}f}".replace("-", "−")
+
+
+def with_unit(name: str, unit: str | None) -> str:
+    """A name with its unit in brackets, if it has one.
+
+    Examples
+    --------
+    >>> with_unit("current", "A"), with_unit("count", None)
+    ('current [A]', 'count')
+    """
+    return f"{name} [{unit}]" if unit else name

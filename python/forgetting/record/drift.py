@@ -1,0 +1,352 @@
+"""How far parameters drift and how far noise remembers: where the printed ± comes from.
+
+P of a rule is the covariance of parameters that drift as that rule supposes, under white noise.
+What a record says of both is in its one-step errors. For parameters that walk at random with steps
+of variance q σ², and noise e(k) = r e(k-1) + w(k) with w of variance σ², the estimator of least
+variance is the rule `random_walk` on y(k) - r y(k-1) and phi(k) - r phi(k-1) (Cochrane and Orcutt
+1949), and
+
+    log L = -1/2 Σ (log σ² + log(1 + s_k) + (ν + 1) log(1 + e_k² / (ν σ² (1 + s_k))))
+
+is the likelihood of its one-step errors, s the leverage (Harvey 1989, section 3.4; with Student's t
+of ν degrees of freedom for the normal distribution, as a few wild errors would look like a drift).
+Over a grid of r and q each course is weighted by its likelihood. The estimates of those that weigh,
+and σ² P of each, give mean and variance of the parameters; the estimate of any rule differs from
+that mean by something that is known. ± is such that two of them hold 95.4 % of what the parameters
+may be.
+
+Regressors are measured from their means and in units of their typical size, so that neither units
+nor zeros matter; q is the same for all of them. Both are chosen on the last `SAMPLES` samples, and
+used on all of them: ± of an early sample knows of later ones how restless the record is.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+import forgetting as fg
+from forgetting.record.origin import Origin, constant_of
+from forgetting.record.samples import Samples
+from forgetting.record.trace import USED
+
+Array = NDArray[np.float64]
+
+CORRELATIONS = (0.0, 0.3, 0.6, 0.8, 0.9, 0.95, 0.98)
+"""r of the grid."""
+LEAST, MOST = 10.0, 1.0
+"""q of the grid: 0, and powers of ten from LEAST/T² to MOST; 1/T² is what T samples just show."""
+SAMPLES = 20_000
+"""Samples at the end of the record by which r and q are weighed."""
+FREEDOM, ROUNDS = 5.0, 10
+"""ν, and rounds of reweighting to find σ²."""
+COST = 100_000_000
+"""Samples times n² that a course may cost while they are weighed."""
+NOTED = 2000
+"""Rows at which the courses are noted; ± in between is drawn straight."""
+OUTPUTS = ("error", "leverage", "skipped")
+COUNTS = 0.02
+"""Weight below which a course is left out."""
+FAIR = 1.15
+"""Times that ± may be too small before it is said; two of them still hold 92 %."""
+FEW = 10
+"""Parameters up to which every direction walks at every sample; above, one after the other."""
+
+
+@dataclass(frozen=True)
+class Course:
+    """One of the ways in which noise and parameters may go on: r, q and its weight."""
+
+    correlation: float
+    process_noise: float
+    weight: float
+
+
+@dataclass(frozen=True)
+class Drift:
+    """The courses that weigh, and what they say of the parameters. See this module.
+
+    Attributes
+    ----------
+    courses : tuple of Course
+        The heaviest first; their weights add up to 1.
+    rows : ndarray, shape (K,)
+        Rows after which they are noted; the last is one of them.
+    mean, variance : ndarray, shape (K, n, m)
+        Of the parameters after these rows.
+    samples : int
+        Complete samples of the record.
+    """
+
+    courses: tuple[Course, ...]
+    rows: NDArray[np.int64]
+    mean: Array
+    variance: Array
+    samples: int
+
+    @property
+    def correlation(self) -> float:
+        """Of neighbouring errors, as expected."""
+        return sum(course.weight * course.correlation for course in self.courses)
+
+    @property
+    def process_noise(self) -> float:
+        """Variance of a step in units of the noise's, as expected."""
+        return sum(course.weight * course.process_noise for course in self.courses)
+
+    def final_standard_error(self, theta: Array) -> Array:
+        """± of the last estimate `theta` (n, m): two of them hold 95.4 %."""
+        return around(theta, self.mean[-1], self.variance[-1])
+
+    def standard_error(self, theta: Array) -> Array:
+        """± of the estimates `theta` (T, n, m)."""
+        found, at = np.empty_like(theta), np.arange(len(theta))
+        for i, j in np.ndindex(theta.shape[1:]):
+            mean = np.interp(at, self.rows, self.mean[:, i, j])
+            variance = np.interp(at, self.rows, self.variance[:, i, j])
+            found[:, i, j] = around(theta[:, i, j], mean, variance)
+        return found
+
+    def describe(self, start: str = "± counts with") -> str:
+        """Say in a sentence what ± counts with."""
+        r, q = self.correlation, self.process_noise
+        noise = f"noise whose neighbours correlate at {r:.2f}" if r > 0.05 else "white noise"
+        if q * self.samples**2 < LEAST:
+            return f"{start} {noise} and parameters that stand still."
+        return (
+            f"{start} {noise} and parameters that drift: each moves the output by about "
+            f"{(q * self.samples) ** 0.5:.2g} times the noise in the {self.samples} samples."
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Ready for JSON."""
+        return {
+            "noise_correlation": self.correlation,
+            "process_noise": self.process_noise,
+        }
+
+
+def claim(claimed: Array, right: Array, found: Drift) -> str:
+    """Compare the standard errors that a rule claims with those of the record, (n, m) each."""
+    known = np.isfinite(claimed) & (claimed > 0) & np.isfinite(right)
+    ratio = float(np.max(right[known] / claimed[known])) if known.any() else 1.0
+    if ratio < FAIR:
+        return "± is what the rule's P says; this record does not speak for more."
+    return (
+        f"± is what the rule's P says, up to {ratio:.2g} times too small here: "
+        + found.describe("the record speaks for")
+    )
+
+
+def around(theta: Array, mean: Array, variance: Array) -> Array:
+    """Half of what holds 95.4 % about an estimate, of parameters of this mean and variance."""
+    spread = np.sqrt(variance)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        away = np.abs(theta - mean) / spread
+    return np.asarray(spread * half_width(np.where(spread > 0, away, 0.0)) / 2)
+
+
+def half_width(away: Array) -> Array:
+    """Half of the interval about 0 that holds 95.4 % of a normal number with this mean, variance 1.
+
+    Examples
+    --------
+    >>> half_width(np.array([0.0, 10.0])).round(2).tolist()  # 10 + 1.69: one side is left
+    [2.0, 11.69]
+    """
+    widths = np.array([2.0, 2.039, 2.149, 2.309, 2.495, 2.741, 3.19, 3.69])
+    at = np.array([0.0, 0.2, 0.4, 0.6, 0.8, 1.05, 1.5, 2.0])
+    return np.asarray(np.where(away < at[-1], np.interp(away, at, widths), away + 1.69))
+
+
+def drift(samples: Samples, settings: dict[str, Any]) -> Drift | None:
+    """Weigh the courses of a record; None where it is too short, or n too large.
+
+    Parameters
+    ----------
+    samples : Samples
+    settings : dict
+        Of the estimators: targets, initial_covariance and dtype.
+    """
+    here = middle(samples)
+    moved = here.moved(samples)
+    courses = weigh(moved, settings)
+    if not courses:
+        return None
+    rows = ends(len(samples.y))
+    mean, square = np.zeros(1), np.zeros(1)
+    for course in courses:
+        theta, spread = along(moved, here, course, rows, settings)
+        mean = mean + course.weight * theta
+        square = square + course.weight * (spread + np.square(theta))
+    spread = np.maximum(square - np.square(mean), 0.0)
+    return Drift(courses, rows, mean, spread, int(samples.complete.sum()))
+
+
+def ends(total: int) -> NDArray[np.int64]:
+    """Rows after which the courses are noted: all, or `NOTED` of them with the last."""
+    return np.arange(total - 1, -1, -max(1, -(-total // NOTED)))[::-1]
+
+
+def along(
+    samples: Samples,
+    here: Origin,
+    course: Course,
+    rows: NDArray[np.int64],
+    settings: dict[str, Any],
+) -> tuple[Array, Array]:
+    """θ and σ² P_ii of a course after each of the rows, (K, n, m) each, as measured from zero."""
+    estimator = walk(samples, course.process_noise, settings)
+    part = differenced(samples, course.correlation)
+    phi, y = as_run(part, settings)
+    change, (_, n), m = here.change(), samples.phi.shape, samples.y.shape[1]
+    noise, thetas, spreads, start = Noise(n, m), [], [], 0
+    for row in rows:
+        found = estimator.run(
+            phi[start : row + 1], y[start : row + 1], outputs=OUTPUTS, missing="skip"
+        )
+        noise.take(found)
+        thetas.append(np.asarray(estimator.theta, dtype=np.float64).reshape(n, m))
+        spread = np.einsum("ij,jk,ik->i", change, estimator.covariance, change)
+        spreads.append(spread[:, None] * noise.variance)
+        start = row + 1
+    return here.theta(np.array(thetas)), np.array(spreads)
+
+
+class Noise:
+    """The running mean of e²/(1 + s) over the samples used but the first n."""
+
+    def __init__(self, parameters: int, outputs: int) -> None:
+        self.left, self.count, self.sum = parameters, 0, np.zeros(outputs)
+
+    def take(self, found: Any) -> None:
+        """Add the samples of a run."""
+        used = np.flatnonzero(found.skipped == USED)
+        first, self.left = min(self.left, len(used)), max(self.left - len(used), 0)
+        used = used[first:]
+        error = np.asarray(found.error, dtype=np.float64).reshape(len(found.skipped), -1)[used]
+        self.count += len(used)
+        self.sum = self.sum + (error**2 / (1.0 + found.leverage[used, None])).sum(axis=0)
+
+    @property
+    def variance(self) -> Array:
+        """σ² of each output, (m,); NaN before there is any."""
+        return self.sum / self.count if self.count else np.full_like(self.sum, np.nan)
+
+
+def as_run(samples: Samples, settings: dict[str, Any]) -> tuple[Array, Array]:
+    """Regressors and outputs as an estimator takes them: one output has no second axis."""
+    y = samples.y if samples.y.shape[1] > 1 else samples.y[:, 0]
+    phi, y = (np.ascontiguousarray(each, dtype=settings["dtype"]) for each in (samples.phi, y))
+    return phi, y
+
+
+def middle(samples: Samples) -> Origin:
+    """The means of the record, if the model has a constant; else zero."""
+    constant, level = constant_of(samples)
+    if constant is None:
+        return Origin(None, 1.0, np.zeros(samples.phi.shape[1]), np.zeros(samples.y.shape[1]))
+    center = samples.known.mean(axis=0)
+    center[constant] = 0.0
+    return Origin(constant, level, center, samples.y[samples.complete].mean(axis=0))
+
+
+def weigh(samples: Samples, settings: dict[str, Any]) -> tuple[Course, ...]:
+    """The courses by their likelihood on the last samples."""
+    n = samples.phi.shape[1]
+    rows = min(len(samples.y), SAMPLES, COST // n**2)
+    part = replace(samples, phi=samples.phi[-rows:], y=samples.y[-rows:])
+    if rows < 2 * n or part.complete.sum() < n + 3:
+        return ()
+    grid = [(r, q) for r in CORRELATIONS for q in walks(int(part.complete.sum()))]
+    logs = np.array([likelihood(part, r, q, settings) for r, q in grid])
+    if not np.isfinite(logs).any():
+        return (Course(0.0, 0.0, 1.0),)
+    weights = np.exp(logs - logs.max())
+    weights /= weights.sum()
+    weights[weights < min(COUNTS, weights.max())] = 0.0
+    order = [i for i in np.argsort(-weights) if weights[i] > 0]
+    total = weights.sum()
+    return tuple(Course(grid[i][0], grid[i][1], float(weights[i] / total)) for i in order)
+
+
+def walks(samples: int) -> list[float]:
+    """q of the grid.
+
+    Examples
+    --------
+    >>> walks(1000)
+    [0.0, 1e-05, 0.0001, 0.001, 0.01, 0.1, 1.0]
+    """
+    found, q = [0.0], LEAST / samples**2
+    while q < MOST * 1.001:
+        found.append(q)
+        q *= 10
+    return found
+
+
+def differenced(samples: Samples, correlation: float) -> Samples:
+    """The samples less `correlation` times the one before; the first is missing."""
+    if not correlation:
+        return samples
+    phi, y = np.full_like(samples.phi, np.nan), np.full_like(samples.y, np.nan)
+    phi[1:] = samples.phi[1:] - correlation * samples.phi[:-1]
+    y[1:] = samples.y[1:] - correlation * samples.y[:-1]
+    return replace(samples, phi=phi, y=y)
+
+
+def walk(samples: Samples, noise: float, settings: dict[str, Any]) -> Any:
+    """The estimator for parameters that walk by `noise`, in units of the regressors."""
+    n = samples.phi.shape[1]
+    if not noise:
+        return fg.RLS(n, rule=fg.rule("none"), **settings)
+    steps: Any = noise
+    if settings["initial_covariance"] is not None:  # then noises are in the units of the record
+        squares = np.nanmean(np.square(samples.phi), axis=0)
+        steps = noise / np.where(squares > 0, squares, 1.0)
+    schedule = "every_sample" if n <= FEW else "cyclic"
+    rule = fg.rule("random_walk", process_noise=steps, schedule=schedule)
+    return fg.RLS(n, rule=rule, **settings)
+
+
+def likelihood(samples: Samples, r: float, q: float, settings: dict[str, Any]) -> float:
+    """log L of a course; minus infinity where it cannot be computed."""
+    estimator, learning = walk(samples, q, settings), start(samples)
+    part = differenced(samples, r)
+    phi, y = as_run(part, settings)
+    try:
+        found = estimator.run(phi, y, outputs=OUTPUTS, missing="skip")
+    except (fg.NumericalRange, fg.InvalidInput):
+        return -np.inf
+    used = (found.skipped == USED) & (np.cumsum(samples.complete) > learning)
+    error = np.asarray(found.error, dtype=np.float64).reshape(part.y.shape)[used]
+    spread = 1 + np.asarray(found.leverage, dtype=np.float64)[used, None]
+    if not len(error):
+        return -np.inf
+    squares = error**2 / spread
+    mean = student_scale(squares)
+    if not (mean > 0).all():
+        return -np.inf
+    # where gaps cost a difference more samples than another, the mean is what compares
+    whole = int((np.cumsum(samples.complete) > learning).sum()) / len(error)
+    value = len(error) * np.log(mean).sum() + error.shape[1] * np.log(spread).sum()
+    value += (FREEDOM + 1) * np.log1p(squares / (FREEDOM * mean)).sum()
+    return float(-0.5 * value * whole)
+
+
+def start(samples: Samples) -> int:
+    """Complete samples whose errors show the initial guess; fewer in a short record."""
+    n, total = int(samples.phi.shape[1]), int(samples.complete.sum())
+    return 5 * n + 20 if total >= 2 * (5 * n + 20) else n + 1
+
+
+def student_scale(squares: Array) -> Array:
+    """σ² of the t distribution that squares (T, m) are most likely of, by reweighting."""
+    mean = np.mean(squares, axis=0)
+    for _ in range(ROUNDS):
+        weights = (FREEDOM + 1) / (FREEDOM + squares / np.where(mean > 0, mean, 1.0))
+        mean = np.mean(weights * squares, axis=0)
+    return np.asarray(mean)

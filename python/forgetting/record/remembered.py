@@ -1,0 +1,23 @@
+"""What the samples that the estimator remembers excite, all along a record."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from forgetting.analysis import Excited, excited
+from forgetting.record.samples import Samples
+from forgetting.record.trace import USED, Trace
+
+
+def remembered(samples: Samples, trace: Trace) -> Excited:
+    """Excitation within the memory, at least 2 n samples and at most a quarter of the record."""
+    used = trace.skipped == USED
+    forgotten = 0.0
+    if used.any():
+        forgotten = 1.0 - float(np.median(trace.forgetting_factor[used]))
+        if trace.memory is not None:
+            forgotten = 1.0 / max(float(np.median(trace.memory[used])), 1.0)
+    total, n = samples.phi.shape
+    longest = max(1, min(total, max(2 * n, total // 4)))
+    memory = np.ceil(1 / max(forgotten, 1e-9))
+    return excited(samples.phi, int(np.clip(memory, min(2 * n, longest), longest)))
