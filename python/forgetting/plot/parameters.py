@@ -10,6 +10,7 @@ from forgetting.plot import thinning
 from forgetting.plot.style import BLUE, axes_or_new, literal
 from forgetting.plot.timeline import label_time, timeline
 from forgetting.record.identification import Identification
+from forgetting.words.rounding import with_unit
 
 Array = NDArray[np.float64]
 
@@ -49,7 +50,8 @@ def parameter(
     if high > low:
         ax.set_ylim(low, high)
     prefix = f"{found.samples.outputs[output]}: " if len(found.samples.outputs) > 1 else ""
-    ax.set_title(literal(prefix + found.samples.regressors[index]))
+    name, of = found.samples.regressors[index], found.samples.outputs[output]
+    ax.set_title(literal(prefix + with_unit(name, found.unit(of, name))))
     label_time(ax, x, time_label)
     return ax
 

@@ -11,6 +11,7 @@ from forgetting.plot.style import BLUE, FAINT, INK, VERMILLION, axes_or_new, leg
 from forgetting.plot.timeline import label_time, timeline
 from forgetting.record.identification import Identification
 from forgetting.record.scores import started
+from forgetting.words.rounding import with_unit
 
 Array = NDArray[np.float64]
 
@@ -46,7 +47,7 @@ def prediction(found: Identification, output: int = 0, ax: Axes | None = None) -
     )
     typical = percentiles(settled(found, found.prediction, output), (1, 99))
     limit_to(ax, np.concatenate([found.samples.y[:, output], typical]))
-    ax.set_ylabel(literal(name))
+    ax.set_ylabel(literal(with_unit(name, found.unit(name))))
     label_time(ax, x, label)
     legend_above(ax, 2)
     return ax
@@ -62,7 +63,8 @@ def error(found: Identification, output: int = 0, ax: Axes | None = None) -> Axe
     ax.plot(*thinning.line(x, found.trace.error[:, output]), color=VERMILLION, lw=0.9)
     typical = 1.15 * percentiles(np.abs(settled(found, found.trace.error, output)), (99.9,))
     limit_to(ax, np.concatenate([typical, -typical]))
-    ax.set_ylabel(literal(f"error of {found.samples.outputs[output]}"))
+    name = found.samples.outputs[output]
+    ax.set_ylabel(literal(with_unit(f"error of {name}", found.unit(name))))
     label_time(ax, x, label)
     legend_above(ax, 1)
     return ax

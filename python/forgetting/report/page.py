@@ -11,14 +11,19 @@ from markupsafe import Markup
 
 import forgetting as fg
 from forgetting.files import write_text
+from forgetting.judgement import Judgement
 
 
 @dataclass(frozen=True)
 class Table:
-    """A table; cells are text already, all columns but the first are right-aligned."""
+    """A table; cells are text already, all columns but the first are right-aligned.
+
+    `prose` aligns all to the left and breaks their lines.
+    """
 
     header: Sequence[str]
     rows: Sequence[Sequence[str]]
+    prose: bool = False
 
 
 @dataclass(frozen=True)
@@ -63,6 +68,8 @@ class Page:
         A word and what it is, at the top: how the record was read.
     verdicts : sequence of str
         Sentences.
+    judgement : Judgement, optional
+        The verdict, in its colour, above everything else.
     figures : sequence of Figure
         Key numbers.
     blocks : sequence of Block
@@ -75,6 +82,7 @@ class Page:
     verdicts: Sequence[str] = ()
     figures: Sequence[Figure] = ()
     blocks: Sequence[Block] = field(default_factory=tuple)
+    judgement: Judgement | None = None
 
 
 def write(page: Page, path: str | Path) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 from markupsafe import Markup
 from matplotlib import pyplot as plt
 
@@ -38,43 +39,74 @@ def page(found: Identification) -> Page:
         title=found.samples.source,
         subtitle=f"{found.samples.model} · {found.rule_in_words}",
         facts=found.samples.facts(),
-        verdicts=found.verdicts,
+        judgement=found.judgement,
         figures=figures(found),
         blocks=blocks,
     )
 
 
 def figures(found: Identification) -> list[Figure]:
-    """Key numbers at the top."""
-    scores = found.scores
-    best = [
-        Figure(
-            f"one-step RMSE of {name}" if len(found.samples.outputs) > 1 else "one-step RMSE",
-            brief(scores.model[j]),
-            f"last value {brief(scores.last_value[j])} · "
-            f"no forgetting {brief(scores.no_forgetting[j])}",
-        )
-        for j, name in enumerate(found.samples.outputs[:3])
-    ]
+    """Key numbers at the top: how well, over how many samples, against how much noise."""
     held = found.left_out().replace(", ", " · ")
-    ends = found.trace.eigenvalues[-1]
-    spread = f"eigenvalues {brief(ends[0], 3)} to {brief(ends[-1], 3)}"
+    used = Figure("samples used", f"{found.used:,}".replace(",", "\u202f"), held)
+    several = len(found.samples.outputs) > 1
+    shown = range(min(len(found.samples.outputs), 3))
+    best = [figure for j in shown for figure in of_output(found, j, several)]
+    return [*best, memory_figure(found), used]
+
+
+def of_output(found: Identification, j: int, several: bool) -> list[Figure]:
+    """Fit, error and noise of an output."""
+    result, name = found.scores, found.samples.outputs[j]
+    of, unit = (f" of {name}" if several else ""), found.unit(name)
+    unit = f" {unit}" if unit else ""
+    noise = float(found.noise[j])
     return [
-        *best,
-        Figure("samples used", f"{found.used:,}".replace(",", " "), held),
-        Figure("spread of P at the end", brief(found.covariance_ratio, 3), spread),
+        Figure(f"fit{of}, one step ahead", percent(result.fit[j]), "1 − error / spread of output"),
+        Figure(
+            f"one-step RMSE{of}",
+            brief(result.model[j]) + unit,
+            f"last value {brief(result.last_value[j])} · "
+            f"no forgetting {brief(result.no_forgetting[j])}",
+        ),
+        *(
+            []
+            if several
+            else [Figure("noise", brief(noise, 3) + unit, "standard deviation, last quarter")]
+        ),
     ]
+
+
+def memory_figure(found: Identification) -> Figure:
+    """Over how many samples the estimate remembers."""
+    memory = found.memory
+    shown = f"{brief(memory, 3)} samples" if np.isfinite(memory) else "all samples"
+    return Figure("memory at the end", shown, f"for {found.theta.shape[1]} parameters")
+
+
+def percent(value: float) -> str:
+    """A fit in percent, with the digits that tell good fits apart."""
+    if not np.isfinite(value):
+        return "–"  # the output is constant
+    digits = 1 if value < 99 else 2
+    return f"{value:.{digits}f} %".replace("-", "−")
 
 
 def parameters(found: Identification) -> Block:
     """Final values."""
     several = len(found.samples.outputs) > 1
+    known = any(found.unit(output, name) for output, name, *_ in found.final())
     rows = [
-        (f"{output}: {name}" if several else name, *with_error(value, error))
+        (
+            f"{output}: {name}" if several else name,
+            *with_error(value, error),
+            *([found.unit(output, name) or ""] if known else []),
+        )
         for output, name, value, error in found.final()
     ]
-    table = Table(("parameter (its regressor)", "value at the end", "standard error"), rows)
-    return Block("Parameters", table=table)
+    header = ("parameter (its regressor)", "value at the end", "± standard error")
+    table = Table((*header, "unit") if known else header, rows)
+    return Block("Parameters", found.uncertainty, table)
 
 
 def scores(found: Identification) -> Block:
@@ -149,10 +181,12 @@ def notes() -> Block:
     """How to read the numbers."""
     return Block(
         "How to read this",
-        "Standard error: square root of the noise variance times the diagonal of P. The noise "
-        "variance is the mean over the used samples of e²/(1 + φPφᵀ), the first n samples left "
-        "out. It describes parameters that drift as the rule assumes, is an upper bound when they "
-        "do not drift, and does not cover a wrong model or errors correlated in time. A sample "
+        "Parameters: a lag of the output stands with the sign of y(k) = a1 y(k-1) + …, so that a "
+        "first-order model has its pole at a1. Standard error: of a bank such that two of them "
+        "hold about 95 % of what the parameter may be, for noise that is correlated and parameters "
+        "that drift as is most likely in this record; of a rule the square root of the noise "
+        "variance times the diagonal of P, for white noise and parameters that drift as the rule "
+        "supposes. Neither covers a wrong model. A sample "
         "with a missing value, or with a lag across a gap of the clock, is skipped; a sample in "
         "the dead zone carries less information than the rule's threshold. "
         "Excited: a direction about which the samples in the rule's memory inform at least 1 % as "

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
 from matplotlib import pyplot as plt
 
 from forgetting import plot
@@ -40,19 +39,12 @@ def trust(found: Identification) -> Block:
 
 def sentences(found: Identification) -> list[str]:
     """What the picture shows, in words."""
-    excited, wound = found.excited, np.flatnonzero(found.trace.windup)
+    excited = found.excited
     words = [silence(found)]
     if excited.parameters > DRAWN:
         words.append(f"The first {DRAWN} of {excited.parameters} parameters are drawn.")
     words.append(str(found.guarantee))
-    if wound.size:
-        words.append(
-            f"P wound up in {wound.size} rows, first in row {wound[0] + 1}: its variance says "
-            "nothing there of how wrong the estimate is, and the next informative sample can throw "
-            "it far."
-        )
-    else:
-        words.append("No windup alarm was raised.")
+    words.append(found.judgement["windup"].text)
     return words
 
 
