@@ -146,7 +146,8 @@ def around(theta: Array, mean: Array, variance: Array) -> Array:
     spread = np.sqrt(variance)
     with np.errstate(divide="ignore", invalid="ignore"):
         away = np.abs(theta - mean) / spread
-    return np.asarray(spread * half_width(np.where(spread > 0, away, 0.0)) / 2)
+    known = np.asarray(spread * half_width(np.where(spread > 0, away, 0.0)) / 2)
+    return np.where(spread > 0, known, np.abs(theta - mean))
 
 
 def half_width(away: Array) -> Array:
@@ -163,7 +164,7 @@ def half_width(away: Array) -> Array:
 
 
 def drift(samples: Samples, settings: dict[str, Any]) -> Drift | None:
-    """Weigh the courses of a record; None where it is too short, or n too large.
+    """Weigh the courses of a record; None where it is too short, or beyond the range of numbers.
 
     Parameters
     ----------
@@ -171,19 +172,25 @@ def drift(samples: Samples, settings: dict[str, Any]) -> Drift | None:
     settings : dict
         Of the estimators: targets, initial_covariance and dtype.
     """
-    here = middle(samples)
+    # a P that was given is of parameters as they are
+    here = middle(samples, moves=settings["initial_covariance"] is None)
     moved = here.moved(samples)
     courses = weigh(moved, settings)
-    if not courses:
-        return None
     rows = ends(len(samples.y))
-    mean, square = np.zeros(1), np.zeros(1)
-    for course in courses:
-        theta, spread = along(moved, here, course, rows, settings)
-        mean = mean + course.weight * theta
-        square = square + course.weight * (spread + np.square(theta))
-    spread = np.maximum(square - np.square(mean), 0.0)
-    return Drift(courses, rows, mean, spread, int(samples.complete.sum()))
+    try:
+        found = [along(moved, here, course, rows, settings) for course in courses]
+    except fg.NumericalRange:
+        found = []
+    if not found:
+        return None
+    weights = [course.weight for course in courses]
+    mean = sum(w * theta for w, (theta, _) in zip(weights, found, strict=True))
+    around_mean = sum(
+        w * (spread + np.square(theta - mean))
+        for w, (theta, spread) in zip(weights, found, strict=True)
+    )
+    complete = int(samples.complete.sum())
+    return Drift(courses, rows, np.asarray(mean), np.asarray(around_mean), complete)
 
 
 def ends(total: int) -> NDArray[np.int64]:
@@ -244,9 +251,9 @@ def as_run(samples: Samples, settings: dict[str, Any]) -> tuple[Array, Array]:
     return phi, y
 
 
-def middle(samples: Samples) -> Origin:
-    """The means of the record, if the model has a constant; else zero."""
-    constant, level = constant_of(samples)
+def middle(samples: Samples, moves: bool) -> Origin:
+    """The means of the record, if the model has a constant and `moves`; else zero."""
+    constant, level = constant_of(samples) if moves else (None, 1.0)
     if constant is None:
         return Origin(None, 1.0, np.zeros(samples.phi.shape[1]), np.zeros(samples.y.shape[1]))
     center = samples.known.mean(axis=0)

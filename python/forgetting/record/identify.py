@@ -164,16 +164,18 @@ def errors_without_inputs(
 ) -> NDArray[np.float64] | None:
     """One-step errors (T, m) of the same rule on past outputs and the constant alone.
 
-    None where that is the model itself, where there are no past outputs, or where the rule has
-    settings for each parameter.
+    None where that is the model itself, where there are no past outputs, where the rule has
+    settings for each parameter, or where a function of the user's would be called once more.
     """
     phi = samples.known
     kept = [i for i in range(phi.shape[1]) if i in past.lags or (phi[:, i] == phi[0, i]).all()]
-    start, words = settings["initial_covariance"], repr(rule)
-    single = "[" not in words and "(" not in words.partition("(")[2]
-    if not past.lags or len(kept) == phi.shape[1] or not single or np.ndim(start):
+    functions = "<" in f"{rule!r} {gate!r}"
+    if not past.lags or len(kept) == phi.shape[1] or functions:
         return None
-    estimator = estimator_for(len(kept), rule, gate=gate, **settings)
+    try:
+        estimator = estimator_for(len(kept), rule, gate=gate, **settings)
+    except fg.InvalidInput:
+        return None
     part = replace(samples, phi=np.ascontiguousarray(samples.phi[:, kept]))
     return errors_of(estimator, part, settings["dtype"], time)
 

@@ -187,7 +187,7 @@ def errors_without_forgetting(samples: Samples, settings: dict[str, Any]) -> Arr
 
 def errors_of(estimator: Any, samples: Samples, dtype: str, time: Array | None = None) -> Array:
     """One-step errors (T, m) of an estimator over all samples; `time` (T,) if it counts."""
-    phi = samples.phi.astype(dtype)
-    y = (samples.y if samples.y.shape[1] > 1 else samples.y[:, 0]).astype(dtype)
+    y = samples.y if samples.y.shape[1] > 1 else samples.y[:, 0]
+    phi, y = (np.ascontiguousarray(each, dtype=dtype) for each in (samples.phi, y))
     result = estimator.run(phi, y, outputs=("error",), missing="skip", time=time)
     return np.asarray(result.error, dtype=np.float64).reshape(samples.y.shape)

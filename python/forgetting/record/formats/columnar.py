@@ -59,7 +59,9 @@ def whole(module: str, function: str, source: Any, name: str, kind: str) -> pd.D
     """Read by a function of pyarrow; what it refuses is no such file."""
     library = extra(module, f"reading {kind}")
     try:
-        frame: pd.DataFrame = getattr(library, function)(source).to_pandas()
+        table = getattr(library, function)(source)
+        # each column is let go once it is converted: a long record is not there twice
+        frame: pd.DataFrame = table.to_pandas(self_destruct=True, split_blocks=True)
     except (OSError, ValueError, TypeError) as error:
         raise RecordError(f"{name} is no {kind} file: {first_line(error)}") from None
     return frame
