@@ -170,8 +170,8 @@ def test_models_take_frames_and_answer_in_them(library):
     model, plain = fg.ARX(na=1, nb=1).fit(u, y), fg.ARX(na=1, nb=1).fit(X, Y[:, 0])
     assert (model.theta_ == plain.theta_).all()
     output = "power" if library in ("pandas", "polars") else "y"
-    assert model.names_ == [f"-{output}(k-1)", "sun(k)", "wind(k)"]
-    assert plain.names_ == ["-y(k-1)", "u1(k)", "u2(k)"]
+    assert model.names_ == [f"{output}(k-1)", "sun(k)", "wind(k)"]
+    assert plain.names_ == ["y(k-1)", "u1(k)", "u2(k)"]
     predicted = model.predict(u, y)
     assert np.asarray(predicted) == pytest.approx(plain.predict(X, Y[:, 0]), rel=0, nan_ok=True)
     if library == "pandas":

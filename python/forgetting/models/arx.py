@@ -57,7 +57,7 @@ class ARX(Constructor):
     n_inputs_, n_outputs_ : int
         Channels of u and y.
     names_ : list of str
-        What the regressors are called, such as "-V(k-1)": after the columns of data frames.
+        What the regressors are called, such as "V(k-1)": after the columns of data frames.
 
     Examples
     --------
