@@ -198,7 +198,7 @@ def test_orders_are_found():
     found = fg.tune_arx(u, y, rates=False, priors=False)
     assert found.orders == fg.models.Orders(2, 2, 3)
     model = eval(found.python).fit(u, y)
-    assert np.allclose(model.theta_, [-1.2, 0.5, 0.8, 0.3], atol=0.05)
+    assert np.allclose(model.theta_, [1.2, -0.5, 0.8, 0.3], atol=0.05)
     alone = fg.tune_arx(None, y, na=[1, 2], rates=False, priors=False)
     assert alone.orders.nb == 0
     assert eval(alone.python).fit(None, y).samples_ == 1200
