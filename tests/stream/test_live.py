@@ -117,7 +117,7 @@ def test_what_the_page_is_told(page):
     page.feed(as_csv(plant(500)))
     (begin, names), (row, event) = page.events(2)
     assert (begin, row) == ("begin", "row")
-    assert names["parameters"] == ["-y(k-1)", "u(k-1)", "offset"]
+    assert names["parameters"] == ["y(k-1)", "u(k-1)", "offset"]
     estimator = page.stream.learner.estimator
     assert event["row"] == 500 and event["time"] == 49.9
     assert event["theta"][:2] == estimator.theta[:2].tolist()
