@@ -36,7 +36,7 @@ def test_a_model_across_two_rates():
     joined = at_one_rate(read(log), "1s", mean=["y"], hold=["u"])
     assert np.array_equal(joined.frame["u"].to_numpy(), u)
     found = identify(joined, output="y", input="u", arx=(1, 1, 1), offset=False, rule="none")
-    np.testing.assert_allclose(found.theta[-1, :, 0], [-0.8, 0.5], atol=2e-3)
+    np.testing.assert_allclose(found.theta[-1, :, 0], [0.8, 0.5], atol=2e-3)
     with pytest.raises(RecordError, match="no complete sample"):
         identify(read(log), output="y", input="u", arx=(1, 1, 1))
 
@@ -100,7 +100,7 @@ def test_on_the_command_line(tmp_path, capsys):
     assert main([*command, "--every", "1s", "--hold", "u", "--mean", "y"]) == 0
     found = json.loads(capsys.readouterr().out)
     values = [each["value"] for each in found["parameters"]]
-    np.testing.assert_allclose(values, [-0.8, 0.5], atol=2e-3)
+    np.testing.assert_allclose(values, [0.8, 0.5], atol=2e-3)
     assert found["read_as"]["joined"].startswith("every 1 s")
     assert main([*command, "--hold", "u"]) == 2
     assert "--every" in capsys.readouterr().err
