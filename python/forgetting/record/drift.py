@@ -16,53 +16,38 @@ that mean by something that is known. ± is such that two of them hold 95.4 % of
 may be.
 
 Regressors are measured from their means and in units of their typical size, so that neither units
-nor zeros matter; q is the same for all of them. Both are chosen on the last `SAMPLES` samples, and
+nor zeros matter; q is the same for all of them. Both are chosen on the last `courses.SAMPLES` samples, and
 used on all of them: ± of an early sample knows of later ones how restless the record is.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 import forgetting as fg
+from forgetting.record.courses import (
+    LEAST,
+    OUTPUTS,
+    Course,
+    as_run,
+    differenced,
+    walk,
+    weigh,
+)
 from forgetting.record.origin import Origin, constant_of
 from forgetting.record.samples import Samples
 from forgetting.record.trace import USED
 
 Array = NDArray[np.float64]
 
-CORRELATIONS = (0.0, 0.3, 0.6, 0.8, 0.9, 0.95, 0.98)
-"""r of the grid."""
-LEAST, MOST = 10.0, 1.0
-"""q of the grid: 0, and powers of ten from LEAST/T² to MOST; 1/T² is what T samples just show."""
-SAMPLES = 20_000
-"""Samples at the end of the record by which r and q are weighed."""
-FREEDOM, ROUNDS = 5.0, 10
-"""ν, and rounds of reweighting to find σ²."""
-COST = 100_000_000
-"""Samples times n² that a course may cost while they are weighed."""
 NOTED = 2000
 """Rows at which the courses are noted; ± in between is drawn straight."""
-OUTPUTS = ("error", "leverage", "skipped")
-COUNTS = 0.02
-"""Weight below which a course is left out."""
 FAIR = 1.15
 """Times that ± may be too small before it is said; two of them still hold 92 %."""
-FEW = 10
-"""Parameters up to which every direction walks at every sample; above, one after the other."""
-
-
-@dataclass(frozen=True)
-class Course:
-    """One of the ways in which noise and parameters may go on: r, q and its weight."""
-
-    correlation: float
-    process_noise: float
-    weight: float
 
 
 @dataclass(frozen=True)
@@ -244,13 +229,6 @@ class Noise:
         return self.sum / self.count if self.count else np.full_like(self.sum, np.nan)
 
 
-def as_run(samples: Samples, settings: dict[str, Any]) -> tuple[Array, Array]:
-    """Regressors and outputs as an estimator takes them: one output has no second axis."""
-    y = samples.y if samples.y.shape[1] > 1 else samples.y[:, 0]
-    phi, y = (np.ascontiguousarray(each, dtype=settings["dtype"]) for each in (samples.phi, y))
-    return phi, y
-
-
 def middle(samples: Samples, moves: bool) -> Origin:
     """The means of the record, if the model has a constant and `moves`; else zero."""
     constant, level = constant_of(samples) if moves else (None, 1.0)
@@ -259,101 +237,3 @@ def middle(samples: Samples, moves: bool) -> Origin:
     center = samples.known.mean(axis=0)
     center[constant] = 0.0
     return Origin(constant, level, center, samples.y[samples.complete].mean(axis=0))
-
-
-def weigh(samples: Samples, settings: dict[str, Any]) -> tuple[Course, ...]:
-    """The courses by their likelihood on the last samples."""
-    n = samples.phi.shape[1]
-    rows = min(len(samples.y), SAMPLES, COST // n**2)
-    part = replace(samples, phi=samples.phi[-rows:], y=samples.y[-rows:])
-    if rows < 2 * n or part.complete.sum() < n + 3:
-        return ()
-    grid = [(r, q) for r in CORRELATIONS for q in walks(int(part.complete.sum()))]
-    logs = np.array([likelihood(part, r, q, settings) for r, q in grid])
-    if not np.isfinite(logs).any():
-        return (Course(0.0, 0.0, 1.0),)
-    weights = np.exp(logs - logs.max())
-    weights /= weights.sum()
-    weights[weights < min(COUNTS, weights.max())] = 0.0
-    order = [i for i in np.argsort(-weights) if weights[i] > 0]
-    total = weights.sum()
-    return tuple(Course(grid[i][0], grid[i][1], float(weights[i] / total)) for i in order)
-
-
-def walks(samples: int) -> list[float]:
-    """q of the grid.
-
-    Examples
-    --------
-    >>> walks(1000)
-    [0.0, 1e-05, 0.0001, 0.001, 0.01, 0.1, 1.0]
-    """
-    found, q = [0.0], LEAST / samples**2
-    while q < MOST * 1.001:
-        found.append(q)
-        q *= 10
-    return found
-
-
-def differenced(samples: Samples, correlation: float) -> Samples:
-    """The samples less `correlation` times the one before; the first is missing."""
-    if not correlation:
-        return samples
-    phi, y = np.full_like(samples.phi, np.nan), np.full_like(samples.y, np.nan)
-    phi[1:] = samples.phi[1:] - correlation * samples.phi[:-1]
-    y[1:] = samples.y[1:] - correlation * samples.y[:-1]
-    return replace(samples, phi=phi, y=y)
-
-
-def walk(samples: Samples, noise: float, settings: dict[str, Any]) -> Any:
-    """The estimator for parameters that walk by `noise`, in units of the regressors."""
-    n = samples.phi.shape[1]
-    if not noise:
-        return fg.RLS(n, rule=fg.rule("none"), **settings)
-    steps: Any = noise
-    if settings["initial_covariance"] is not None:  # then noises are in the units of the record
-        squares = np.nanmean(np.square(samples.phi), axis=0)
-        steps = noise / np.where(squares > 0, squares, 1.0)
-    schedule = "every_sample" if n <= FEW else "cyclic"
-    rule = fg.rule("random_walk", process_noise=steps, schedule=schedule)
-    return fg.RLS(n, rule=rule, **settings)
-
-
-def likelihood(samples: Samples, r: float, q: float, settings: dict[str, Any]) -> float:
-    """log L of a course; minus infinity where it cannot be computed."""
-    estimator, learning = walk(samples, q, settings), start(samples)
-    part = differenced(samples, r)
-    phi, y = as_run(part, settings)
-    try:
-        found = estimator.run(phi, y, outputs=OUTPUTS, missing="skip")
-    except (fg.NumericalRange, fg.InvalidInput):
-        return -np.inf
-    used = (found.skipped == USED) & (np.cumsum(samples.complete) > learning)
-    error = np.asarray(found.error, dtype=np.float64).reshape(part.y.shape)[used]
-    spread = 1 + np.asarray(found.leverage, dtype=np.float64)[used, None]
-    if not len(error):
-        return -np.inf
-    squares = error**2 / spread
-    mean = student_scale(squares)
-    if not (mean > 0).all():
-        return -np.inf
-    # where gaps cost a difference more samples than another, the mean is what compares
-    whole = int((np.cumsum(samples.complete) > learning).sum()) / len(error)
-    value = len(error) * np.log(mean).sum() + error.shape[1] * np.log(spread).sum()
-    value += (FREEDOM + 1) * np.log1p(squares / (FREEDOM * mean)).sum()
-    return float(-0.5 * value * whole)
-
-
-def start(samples: Samples) -> int:
-    """Complete samples whose errors show the initial guess; fewer in a short record."""
-    n, total = int(samples.phi.shape[1]), int(samples.complete.sum())
-    return 5 * n + 20 if total >= 2 * (5 * n + 20) else n + 1
-
-
-def student_scale(squares: Array) -> Array:
-    """σ² of the t distribution that squares (T, m) are most likely of, by reweighting."""
-    mean = np.mean(squares, axis=0)
-    for _ in range(ROUNDS):
-        weights = (FREEDOM + 1) / (FREEDOM + squares / np.where(mean > 0, mean, 1.0))
-        mean = np.mean(weights * squares, axis=0)
-    return np.asarray(mean)
