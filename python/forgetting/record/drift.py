@@ -16,8 +16,9 @@ that mean by something that is known. ± is such that two of them hold 95.4 % of
 may be.
 
 Regressors are measured from their means and in units of their typical size, so that neither units
-nor zeros matter; q is the same for all of them. Both are chosen on the last `courses.SAMPLES` samples, and
-used on all of them: ± of an early sample knows of later ones how restless the record is.
+nor zeros matter; q is the same for all of them. Both are chosen on the last `courses.SAMPLES`
+samples, and used on all of them: ± of an early sample knows of later ones how restless the record
+is.
 """
 
 from __future__ import annotations
