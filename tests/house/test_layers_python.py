@@ -28,6 +28,7 @@ LAYERS: tuple[tuple[tuple[str, ...], str], ...] = (
     (("registry", "fleet"), "all the classes by name; how many estimators fare"),
     (("models",), "they make regressors and keep an estimator behind them"),
     (("tuning",), "runs many of them and says which predicts best"),
+    (("tables",), "rows of tables go to the estimator of their key"),
     (("",), "what `import forgetting` shows: all of the above, and nothing above it"),
     (("sklearn", "river"), "the estimators as other libraries want them"),
     (("analysis",), "the theory applied to arrays; it has never heard of files"),

@@ -1,0 +1,171 @@
+"""A batch of rows: read and checked before anything changes, then taken."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from forgetting.tables.clock import Ticks, ticks
+from forgetting.tables.columns import numbers
+from forgetting.tables.keys import Found
+from forgetting.tables.order import Groups, grouped
+from forgetting.tables.pages import Samples
+from forgetting.tables.single import CODES
+from forgetting.tables.streams import NEVER, Streams
+
+Array = NDArray[Any]
+
+LATE = 254
+"""The code of a row that is older than the last one of its stream; others as in `SKIPPED`."""
+
+
+@dataclass(frozen=True)
+class Batch:
+    """What a table holds for a fleet.
+
+    Attributes
+    ----------
+    table : pyarrow.Table
+    keys : Found
+    ticks : Ticks or None
+    y : (rows,) ndarray
+    phi : list of (rows,) ndarray
+    """
+
+    table: Any
+    keys: Found
+    ticks: Ticks | None
+    y: Array
+    phi: list[Array]
+
+
+def read(streams: Streams, table: Any) -> Batch:
+    """Everything that is needed of a table; see `TableFleet.update` for what is refused."""
+    model = streams.model
+    y, phi = numbers(table, model.y), [numbers(table, name) for name in model.phi]
+    time = None if model.time is None else ticks(table, model.time, streams.time_type)
+    return Batch(table, streams.keys.read(table, model.key, streams.refused), time, y, phi)
+
+
+def take(streams: Streams, batch: Batch, outputs: tuple[str, ...]) -> dict[str, Array]:
+    """Take the rows of a batch.
+
+    Returns
+    -------
+    dict of str to ndarray
+        The outputs, one row for each of the batch; always with "skipped".
+    """
+    if batch.ticks is not None and len(batch.y):
+        streams.keep_times(batch.ticks.type, batch.ticks.values.dtype)
+    streams.start(batch.keys)
+    skipped = _left_out(streams, batch)
+    rows = np.flatnonzero(skipped == 0)
+    time = None if batch.ticks is None else batch.ticks.values[rows]
+    groups = grouped(batch.keys.rows[rows], rows, time)
+    groups = _without_late(streams, batch, groups, skipped)
+    samples, kept = _samples(streams, batch, groups)
+    found = streams.pages.take(samples, _asked(outputs))
+    skipped[groups.rows] = found.pop("skipped")
+    _remember(streams, batch, groups, skipped, kept)
+    told = {name: _in_order(groups, values, len(batch.y)) for name, values in found.items()}
+    if "prediction" in outputs:
+        told["prediction"] = batch.y.astype(told["error"].dtype, copy=False) - told["error"]
+    return told | {"skipped": skipped}
+
+
+def _asked(outputs: tuple[str, ...]) -> tuple[str, ...]:
+    """What the estimators are asked for."""
+    own = set(outputs) - {"prediction"} | {"skipped"}
+    return tuple(sorted(own | ({"error"} if "prediction" in outputs else set())))
+
+
+def _left_out(streams: Streams, batch: Batch) -> NDArray[np.uint8]:
+    """The codes of rows that go to no stream: no time, or a key without a good state."""
+    codes = np.zeros(len(batch.y), dtype=np.uint8)
+    if batch.ticks is not None and batch.ticks.missing.any():
+        codes[batch.ticks.missing] = CODES["missing"]
+    if streams.refused:
+        codes[batch.keys.rows < 0] = CODES["refused"]
+    return codes
+
+
+def _without_late(
+    streams: Streams, batch: Batch, groups: Groups, skipped: NDArray[np.uint8]
+) -> Groups:
+    if batch.ticks is None or streams.seen is None:
+        return groups
+    seen = np.repeat(streams.seen.of(groups.streams), groups.counts)
+    late = batch.ticks.values[groups.rows] < seen
+    skipped[groups.rows[late]] = LATE
+    return groups.without(late)
+
+
+def _samples(streams: Streams, batch: Batch, groups: Groups) -> tuple[Samples, Array | None]:
+    """The samples of grouped rows, and the rows that are to be kept for lags."""
+    dtype, model = np.dtype(streams.pages.new.dtype), streams.model
+    phi = np.empty((len(batch.y), len(batch.phi) + model.offset), dtype=np.float64)
+    for j, values in enumerate(batch.phi):
+        phi[:, j] = values
+    if model.offset:
+        phi[:, -1] = 1.0
+    phi, y, kept = phi.take(groups.rows, axis=0), batch.y.take(groups.rows), None
+    if streams.lags is not None:
+        signals = np.column_stack([y, phi[:, : len(batch.phi)]])
+        lagged, kept = streams.lags.regressors(groups, signals)
+        phi = np.column_stack([lagged, phi[:, len(batch.phi) :]])
+    time, last = _times(streams, batch, groups)
+    return Samples(
+        groups, phi.astype(dtype, copy=False), y.astype(dtype, copy=False), time, last
+    ), kept
+
+
+def _times(streams: Streams, batch: Batch, groups: Groups) -> tuple[Array | None, Array | None]:
+    """When samples were taken, and the last ones before, in units of time; None without a clock.
+
+    Whole ticks are counted from the first of the batch, so that no digit of a date is lost.
+    """
+    if not streams.by_clock or batch.ticks is None or streams.taken is None:
+        return None, None
+    values = batch.ticks.values[groups.rows]
+    before = streams.taken.of(groups.streams)
+    never = before == NEVER[before.dtype.kind]
+    origin = values.min() if values.dtype.kind == "i" and len(values) else 0
+    last = (np.where(never, origin, before) - origin) / batch.ticks.per_unit
+    return (values - origin) / batch.ticks.per_unit, np.where(never, np.nan, last)
+
+
+def _remember(
+    streams: Streams,
+    batch: Batch,
+    groups: Groups,
+    skipped: NDArray[np.uint8],
+    kept: Array | None,
+) -> None:
+    """Counts, times and lags after a batch."""
+    known = batch.keys.rows >= 0
+    np.add.at(streams.rows.values, batch.keys.rows[known], 1)
+    for code, count in ((CODES["missing"], streams.missing), (LATE, streams.late)):
+        np.add.at(count.values, batch.keys.rows[known & (skipped == code)], 1)
+    if streams.lags is not None and kept is not None:
+        streams.lags.kept.values[groups.streams] = kept
+    if batch.ticks is None or streams.seen is None or streams.taken is None:
+        return
+    if not len(groups.rows):
+        return
+    ends = groups.starts + groups.counts - 1
+    streams.seen.values[groups.streams] = batch.ticks.values[groups.rows[ends]]
+    left_out = np.isin(skipped[groups.rows], [CODES["missing"], CODES["refused"]])
+    last = np.where(left_out, -1, np.arange(len(left_out)))
+    last = np.maximum.reduceat(last, groups.starts)
+    some = last >= 0
+    streams.taken.values[groups.streams[some]] = batch.ticks.values[groups.rows[last[some]]]
+
+
+def _in_order(groups: Groups, values: Array, rows: int) -> Array:
+    """Grouped rows in the order of the batch; NaN where a row went to no stream."""
+    found = np.full((rows, *values.shape[1:]), np.nan, dtype=values.dtype)
+    found[groups.rows] = values
+    return found

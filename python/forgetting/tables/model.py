@@ -1,0 +1,93 @@
+"""Which columns of a table make the samples of a stream."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from forgetting._core import InvalidInput
+from forgetting.models.lags import names
+from forgetting.models.orders import Orders
+
+
+@dataclass(frozen=True)
+class Model:
+    """The columns of a fleet's tables, and how regressors are made of them.
+
+    Parameters
+    ----------
+    key, y : str
+        The columns that say whose row it is and what was measured.
+    phi : tuple of str
+        The regressors; with `arx` the inputs of the ARX model.
+    time : str, optional
+        When the row was measured.
+    offset : bool
+        Whether a regressor of 1 comes after the others.
+    arx : Orders, optional
+        Past outputs, inputs and delay; lags are those of the row's own stream.
+
+    Raises
+    ------
+    forgetting.InvalidInput
+        When a column is not named by a text, is used twice, or no regressor is left.
+    """
+
+    key: str
+    y: str
+    phi: tuple[str, ...] = ()
+    time: str | None = None
+    offset: bool = False
+    arx: Orders | None = None
+
+    def __post_init__(self) -> None:
+        for name in self.columns:
+            if not isinstance(name, str) or not name:
+                raise InvalidInput(f"a column is {name!r}, allowed: the name of a column")
+        for role in (self.key, self.time):
+            if role is not None and self.columns.count(role) > 1:
+                raise InvalidInput(f"column {role!r} has two roles: key, time, y and phi are apart")
+        if self.y in self.phi or len(set(self.phi)) < len(self.phi):
+            raise InvalidInput(f"phi = {list(self.phi)}, allowed: each column once, and not y")
+        if self.arx is not None and bool(self.phi) != bool(self.arx.nb):
+            raise InvalidInput(f"phi = {list(self.phi)} with nb = {self.arx.nb}: inputs go with nb")
+        if not self.regressors:
+            raise InvalidInput("phi is empty, allowed: one column or more, an offset, or arx")
+
+    @property
+    def columns(self) -> list[str]:
+        """All columns that are read: key, time, y, phi."""
+        return [self.key, *([] if self.time is None else [self.time]), self.y, *self.phi]
+
+    @property
+    def regressors(self) -> list[str]:
+        """What each parameter belongs to, as in ``-V(k-1)``, ``I(k)`` or ``offset``."""
+        own = list(self.phi) if self.arx is None else names([self.y], self.phi, self.arx)
+        return own + ["offset"] * self.offset
+
+    def to_dict(self) -> dict[str, Any]:
+        """All of it in plain values."""
+        return asdict(self)
+
+    @classmethod
+    def of(cls, values: dict[str, Any]) -> Model:
+        """The model that `to_dict` has told."""
+        orders = None if values["arx"] is None else Orders(**values["arx"])
+        return cls(**{**values, "phi": tuple(values["phi"]), "arx": orders})
+
+
+def made(
+    key: str,
+    y: str,
+    phi: str | Sequence[str],
+    time: str | None,
+    offset: bool,
+    arx: Sequence[int] | Orders | None,
+) -> Model:
+    """The model of what a user gives; one column needs no list."""
+    if arx is not None and not isinstance(arx, Orders):
+        if len(arx) != 3:
+            raise InvalidInput(f"arx = {tuple(arx)}, allowed: three whole numbers na, nb, nk")
+        arx = Orders(*arx)
+    return Model(key, y, (phi,) if isinstance(phi, str) else tuple(phi), time, offset, arx)

@@ -1,0 +1,85 @@
+"""What is told of rows and of streams, as Arrow tables."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from forgetting._core import SKIPPED, InvalidInput
+from forgetting.tables.batch import LATE, Batch
+from forgetting.tables.columns import arrow
+from forgetting.tables.model import Model
+from forgetting.tables.streams import NEVER, Streams
+
+NAMES = ("prediction", "error", "leverage", "theta", "variance", "skipped")
+"""All outputs of a row."""
+
+WORDS = {code: word for code, word in (SKIPPED | {LATE: "late"}).items() if word is not None}
+
+
+def checked(outputs: str | Iterable[str]) -> tuple[str, ...]:
+    """The outputs that are asked for, in the order of `NAMES`."""
+    asked = [outputs] if isinstance(outputs, str) else list(outputs)
+    for name in asked:
+        if name not in NAMES:
+            raise InvalidInput(f"outputs = {name!r}, allowed: {', '.join(NAMES)}")
+    return tuple(name for name in NAMES if name in asked)
+
+
+def table(model: Model, batch: Batch, told: dict[str, NDArray[Any]], wanted: Sequence[str]) -> Any:
+    """The rows of a batch with what was asked for."""
+    pa = arrow()
+    own = [name for name in (model.key, model.time) if name is not None]
+    columns = {name: batch.table.column(name) for name in own}
+    for name in wanted:
+        values = told[name]
+        if name == "skipped":
+            columns[name] = words(values)
+        elif values.ndim == 1:
+            columns[name] = pa.array(values, from_pandas=True)
+        else:
+            columns |= by_regressor(model, name, values)
+    return pa.table(columns)
+
+
+def by_regressor(model: Model, name: str, values: NDArray[Any]) -> dict[str, Any]:
+    """A column for each regressor, ``theta:sun``."""
+    named = [f"{name}:{regressor}" for regressor in model.regressors]
+    return {
+        each: arrow().array(np.ascontiguousarray(values[:, j]), from_pandas=True)
+        for j, each in enumerate(named)
+    }
+
+
+def words(codes: NDArray[np.uint8]) -> Any:
+    """Why rows were left out, as a dictionary column of Arrow; null where they were used."""
+    pa, listed = arrow(), list(WORDS)
+    index = np.zeros(256, dtype=np.int8)
+    index[listed] = np.arange(len(listed))
+    indices = pa.array(index[codes], mask=codes == 0)
+    return pa.DictionaryArray.from_arrays(indices, pa.array([WORDS[code] for code in listed]))
+
+
+def standing(streams: Streams) -> Any:
+    """A row for each stream; see `TableFleet.estimates`."""
+    pa, model, pages = arrow(), streams.model, streams.pages
+    columns = {model.key: pa.array(streams.keys.listed(), type=streams.keys.type)}
+    if model.time is not None:
+        columns[model.time] = times(streams, "seen")
+    columns["rows"] = pa.array(streams.rows.values)
+    columns["samples"] = pa.array(pages.gather(lambda fleet: fleet.samples))
+    columns |= {name: pa.array(streams.counts[name].values) for name in ("missing", "late")}
+    columns["status"] = pa.array(pages.gather(lambda fleet: fleet.health().status), pa.string())
+    return pa.table(columns | by_regressor(model, "theta", pages.gather(lambda fleet: fleet.theta)))
+
+
+def times(streams: Streams, name: str) -> Any:
+    """The times `seen` or `taken` in their own type; null where there is none yet."""
+    pa, kept = arrow(), getattr(streams, name)
+    if kept is None:
+        return pa.nulls(len(streams.keys))
+    never = kept.values == NEVER[kept.values.dtype.kind]
+    return pa.array(kept.values, mask=never).cast(streams.time_type)
