@@ -69,6 +69,7 @@ def take(streams: Streams, batch: Batch, outputs: tuple[str, ...]) -> dict[str, 
     samples, kept = _samples(streams, batch, groups)
     found = streams.pages.take(samples, _asked(outputs))
     skipped[groups.rows] = found.pop("skipped")
+    _count(streams, batch, groups, skipped)
     _remember(streams, batch, groups, skipped, kept)
     told = {name: _in_order(groups, values, len(batch.y)) for name, values in found.items()}
     if "prediction" in outputs:
@@ -127,7 +128,7 @@ def _times(streams: Streams, batch: Batch, groups: Groups) -> tuple[Array | None
 
     Whole ticks are counted from the first of the batch, so that no digit of a date is lost.
     """
-    if not streams.by_clock or batch.ticks is None or streams.taken is None:
+    if batch.ticks is None or streams.taken is None:
         return None, None
     values = batch.ticks.values[groups.rows]
     before = streams.taken.of(groups.streams)
@@ -137,26 +138,30 @@ def _times(streams: Streams, batch: Batch, groups: Groups) -> tuple[Array | None
     return (values - origin) / batch.ticks.per_unit, np.where(never, np.nan, last)
 
 
+def _count(streams: Streams, batch: Batch, groups: Groups, skipped: NDArray[np.uint8]) -> None:
+    """The rows of each stream, and those of them that are late or missing."""
+    streams.rows.values[groups.streams] += groups.counts
+    others = np.flatnonzero((skipped == LATE) | (skipped == CODES["missing"]))
+    others = others[batch.keys.rows[others] >= 0]
+    of, late = batch.keys.rows[others], skipped[others] == LATE
+    np.add.at(streams.late.values, of[late], 1)
+    np.add.at(streams.missing.values, of[~late], 1)
+    if batch.ticks is not None:
+        np.add.at(streams.rows.values, of[late | batch.ticks.missing[others]], 1)
+
+
 def _remember(
-    streams: Streams,
-    batch: Batch,
-    groups: Groups,
-    skipped: NDArray[np.uint8],
-    kept: Array | None,
+    streams: Streams, batch: Batch, groups: Groups, skipped: NDArray[np.uint8], kept: Array | None
 ) -> None:
-    """Counts, times and lags after a batch."""
-    known = batch.keys.rows >= 0
-    np.add.at(streams.rows.values, batch.keys.rows[known], 1)
-    for code, count in ((CODES["missing"], streams.missing), (LATE, streams.late)):
-        np.add.at(count.values, batch.keys.rows[known & (skipped == code)], 1)
+    """The times and lags of each stream after a batch."""
     if streams.lags is not None and kept is not None:
         streams.lags.kept.values[groups.streams] = kept
-    if batch.ticks is None or streams.seen is None or streams.taken is None:
-        return
-    if not len(groups.rows):
+    if batch.ticks is None or streams.seen is None or not len(groups.rows):
         return
     ends = groups.starts + groups.counts - 1
     streams.seen.values[groups.streams] = batch.ticks.values[groups.rows[ends]]
+    if streams.taken is None:
+        return
     left_out = np.isin(skipped[groups.rows], [CODES["missing"], CODES["refused"]])
     last = np.where(left_out, -1, np.arange(len(left_out)))
     last = np.maximum.reduceat(last, groups.starts)

@@ -53,10 +53,12 @@ def column(table: Any, name: str) -> Any:
         if there.count(name) > 1:
             raise InvalidInput(f"the batch has {there.count(name)} columns named {name!r}")
         raise InvalidInput(f"the batch has no column {name!r}{suggestion(there, name, 'it has')}")
-    found = table.column(name).combine_chunks()
-    if isinstance(found, pa.ChunkedArray):
-        found = pa.concat_arrays(found.chunks)
-    return found.cast(found.type.value_type) if pa.types.is_dictionary(found.type) else found
+    found = table.column(name)
+    if pa.types.is_dictionary(found.type):
+        found = found.cast(found.type.value_type)
+    if found.num_chunks == 1:
+        return found.chunk(0)
+    return pa.concat_arrays(found.chunks) if found.num_chunks else pa.array([], found.type)
 
 
 def numbers(table: Any, name: str) -> NDArray[np.float64]:

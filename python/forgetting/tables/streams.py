@@ -38,8 +38,10 @@ class Streams:
         Rows that came; those without a sample; those left out because a later row came before.
     time_type : pyarrow.DataType or None
         Of the times so far.
-    seen, taken : Growing or None
-        Ticks of the last row, and of the last sample that was taken; None before the first times.
+    seen : Growing or None
+        Ticks of the last row; None before the first times.
+    taken : Growing or None
+        Ticks of the last sample that was taken, where forgetting goes by the clock.
     lags : Lags or None
     refused : dict
         By key, why its saved state was refused.
@@ -72,7 +74,8 @@ class Streams:
         if self.seen is None:
             never = NEVER[np.dtype(dtype).kind]
             self.time_type = kind
-            self.seen, self.taken = Growing(never, dtype), Growing(never, dtype)
+            self.seen = Growing(never, dtype)
+            self.taken = Growing(never, dtype) if self.by_clock else None
             self._grow()
 
     def start(self, found: Found) -> None:
