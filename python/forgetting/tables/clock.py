@@ -54,8 +54,10 @@ def ticks(table: Any, name: str, before: Any) -> Ticks:
         be said in the type of before without loss.
     """
     pa, found = arrow(), column(table, name)
-    wanted = before if before is not None else comparable(found.type, name)
-    comparable(found.type, name)
+    own = comparable(found.type, name)
+    wanted = before if before is not None else own
+    if sort(own) != sort(wanted):
+        raise InvalidInput(f"time column {name!r} holds {found.type} where {wanted} came before")
     try:
         found = found if found.type == wanted else found.cast(wanted)
     except pa.ArrowException as error:
@@ -87,6 +89,12 @@ def comparable(kind: Any, name: str) -> Any:
         return kind
     allowed = "numbers, dates and times, or durations"
     raise InvalidInput(f"time column {name!r} holds {kind}, allowed: {allowed}")
+
+
+def sort(kind: Any) -> str:
+    """What times are of a sort that can be compared; local times and instants are not."""
+    local = hasattr(kind, "tz") and kind.tz is None
+    return f"{type(kind).__name__} {local}" if hasattr(kind, "unit") else "number"
 
 
 def per_unit(kind: Any) -> float:

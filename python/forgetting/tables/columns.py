@@ -54,11 +54,17 @@ def column(table: Any, name: str) -> Any:
             raise InvalidInput(f"the batch has {there.count(name)} columns named {name!r}")
         raise InvalidInput(f"the batch has no column {name!r}{suggestion(there, name, 'it has')}")
     found = table.column(name)
-    if pa.types.is_dictionary(found.type):
-        found = found.cast(found.type.value_type)
-    if found.num_chunks == 1:
-        return found.chunk(0)
-    return pa.concat_arrays(found.chunks) if found.num_chunks else pa.array([], found.type)
+    chunks = [plain(chunk) for chunk in found.chunks] or [plain(pa.nulls(0, found.type))]
+    return chunks[0] if len(chunks) == 1 else pa.concat_arrays(chunks)
+
+
+def plain(array: Any) -> Any:
+    """The values themselves, where the array has them in a dictionary or as views of texts."""
+    pa = arrow()
+    if pa.types.is_dictionary(array.type):
+        return plain(array.dictionary).take(array.indices)
+    is_view = getattr(pa.types, "is_string_view", lambda kind: False)
+    return array.cast(pa.large_string()) if is_view(array.type) else array
 
 
 def numbers(table: Any, name: str) -> NDArray[np.float64]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from threading import Lock
 from typing import Any
 
@@ -11,7 +11,7 @@ import numpy as np
 from forgetting._core import RLS, Fleet, InvalidInput
 from forgetting.models.orders import Orders
 from forgetting.tables import outputs as told
-from forgetting.tables import state
+from forgetting.tables import restore, state
 from forgetting.tables.batch import read, take
 from forgetting.tables.columns import table_of
 from forgetting.tables.half_life import with_half_life
@@ -112,6 +112,10 @@ class TableFleet:
         """Number of streams."""
         return len(self._streams.keys)
 
+    def __iter__(self) -> Iterator[Any]:
+        """The keys, in the order in which they first appeared."""
+        return iter(self.keys())
+
     def __contains__(self, key: object) -> bool:
         return key in self._streams.keys
 
@@ -196,7 +200,7 @@ class TableFleet:
         on as it was.
         """
         fleet = cls.__new__(cls)
-        fleet._take_over(state.from_arrow(table_of(table), threads))
+        fleet._take_over(restore.from_arrow(table_of(table), threads))
         return fleet
 
     def put(self, table: Any) -> None:
@@ -208,7 +212,7 @@ class TableFleet:
             When it was saved by a fleet of other columns or another rule; nothing has changed.
         """
         with self._lock:
-            state.put(self._streams, table_of(table))
+            restore.put(self._streams, table_of(table))
 
     def __repr__(self) -> str:
         return f"TableFleet({self.model.key!r}, {self.model.y!r}) of {len(self)} streams"

@@ -113,8 +113,6 @@ class Keys:
         texts = [types.is_string(t) or types.is_large_string(t) for t in (values.type, before)]
         wholes = [types.is_integer(t) for t in (values.type, before)]
         stamps = [types.is_timestamp(t) for t in (values.type, before)]
-        if hasattr(types, "is_string_view"):
-            texts[0] = texts[0] or types.is_string_view(values.type)
         try:
             if all(texts) or all(wholes) or all(stamps):
                 return values.cast(before)
