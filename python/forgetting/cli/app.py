@@ -10,6 +10,7 @@ import forgetting as fg
 from forgetting.cli.certify import certify
 from forgetting.cli.compare import compare
 from forgetting.cli.demo import demo
+from forgetting.cli.fleet import fleet
 from forgetting.cli.identify import identify
 from forgetting.cli.reproduce import reproduce
 from forgetting.cli.rules import rules
@@ -34,6 +35,7 @@ app.command()(tune)
 app.command()(compare)
 app.command()(certify)
 app.command()(stream)
+app.command()(fleet)
 app.command()(rules)
 app.command()(demo)
 app.command()(reproduce)
