@@ -23,6 +23,7 @@ from . import (
     resetting,
     rules,
     single,
+    tables,
     variable_direction,
 )
 from .ledger import Ledger
@@ -41,6 +42,7 @@ PARTS = {
     "live": live,
     "memory": memory,
     "fleet": fleet,
+    "tables": tables,
 }
 
 

@@ -43,7 +43,8 @@ def test_a_saved_fleet_goes_on_bit_for_bit(settings, file, tmp_path):
     fleet, _, second = halves(**settings)
     saved = fleet.to_arrow()
     if file:
-        feather.write_feather(saved, tmp_path / "f.arrow")
+        fleet.save(tmp_path / "f.arrow")
+        assert feather.read_table(tmp_path / "f.arrow").equals(saved)
         saved = feather.read_table(tmp_path / "f.arrow")
     again = TableFleet.from_arrow(saved)
     assert again.keys() == fleet.keys() and again.model == fleet.model

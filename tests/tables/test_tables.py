@@ -164,8 +164,9 @@ def test_times_of_any_type_order_rows():
         assert fleet["a"].to_bytes() == est.to_bytes(), name
 
 
-def test_an_empty_batch_is_no_news():
-    fleet = new()
+@pytest.mark.parametrize("more", [{}, {"arx": (1, 2, 0)}], ids=["static", "lags"])
+def test_an_empty_batch_is_no_news(more):
+    fleet = new(**more)
     empty = pa.table(ROWS).slice(0, 0)
     assert len(fleet.update(empty)) == 0 and len(fleet) == 0
     assert fleet.estimates().num_rows == 0 and fleet.to_arrow().num_rows == 0

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
 from threading import Lock
 from typing import Any
 
 import numpy as np
 
 from forgetting._core import RLS, Fleet, InvalidInput
+from forgetting.extras import extra
+from forgetting.files import whole
 from forgetting.models.orders import Orders
 from forgetting.tables import outputs as told
 from forgetting.tables import restore, state
 from forgetting.tables.batch import read, take
-from forgetting.tables.columns import table_of
+from forgetting.tables.columns import PURPOSE, table_of
 from forgetting.tables.half_life import with_half_life
 from forgetting.tables.model import Model, made
 from forgetting.tables.streams import Streams
@@ -190,6 +193,27 @@ class TableFleet:
         """
         with self._lock:
             return state.to_arrow(self._streams, None if keys is None else list(keys))
+
+    def save(self, path: str | Path, metadata: Mapping[bytes, bytes] | None = None) -> None:
+        """Write the state of all streams as an Arrow file, whole or not at all.
+
+        It is the table of `to_arrow`, written page by page, so that little memory is needed; read
+        it with ``pyarrow.feather.read_table``.
+
+        Parameters
+        ----------
+        path : str or Path
+        metadata : mapping of bytes to bytes, optional
+            What else to keep among the metadata of the schema.
+        """
+        ipc = extra("pyarrow.ipc", PURPOSE)
+        with self._lock, whole(path) as made:
+            parts = state.parts(self._streams)
+            first = next(parts)
+            schema = first.schema.with_metadata(first.schema.metadata | dict(metadata or {}))
+            with ipc.new_file(str(made), schema) as file:
+                for part in parts:
+                    file.write_table(part.replace_schema_metadata(schema.metadata))
 
     @classmethod
     def from_arrow(cls, table: Any, threads: int | None = None) -> TableFleet:

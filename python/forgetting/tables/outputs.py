@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from forgetting._core import SKIPPED, InvalidInput
 from forgetting.tables.batch import LATE, Batch
 from forgetting.tables.columns import arrow
+from forgetting.tables.growing import Growing
 from forgetting.tables.model import Model
 from forgetting.tables.streams import NEVER, Streams
 
@@ -68,7 +69,7 @@ def standing(streams: Streams) -> Any:
     pa, model, pages = arrow(), streams.model, streams.pages
     columns = {model.key: pa.array(streams.keys.listed(), type=streams.keys.type)}
     if model.time is not None:
-        columns[model.time] = times(streams, "seen")
+        columns[model.time] = times(streams, streams.seen, np.arange(len(streams.keys)))
     columns["rows"] = pa.array(streams.rows.values)
     columns["samples"] = pa.array(pages.gather(lambda fleet: fleet.samples))
     columns |= {name: pa.array(streams.counts[name].values) for name in ("missing", "late")}
@@ -76,10 +77,10 @@ def standing(streams: Streams) -> Any:
     return pa.table(columns | by_regressor(model, "theta", pages.gather(lambda fleet: fleet.theta)))
 
 
-def times(streams: Streams, name: str) -> Any:
-    """The times `seen` or `taken` in their own type; null where there is none yet."""
-    pa, kept = arrow(), getattr(streams, name)
+def times(streams: Streams, kept: Growing | None, at: NDArray[np.int64]) -> Any:
+    """Kept times of these streams in their own type; null where there is none yet."""
+    pa = arrow()
     if kept is None:
-        return pa.nulls(len(streams.keys))
-    never = kept.values == NEVER[kept.values.dtype.kind]
-    return pa.array(kept.values, mask=never).cast(streams.time_type)
+        return pa.nulls(len(at))
+    values = kept.values[at]
+    return pa.array(values, mask=values == NEVER[values.dtype.kind]).cast(streams.time_type)

@@ -42,7 +42,7 @@ class Partition:
         return self.path.stat().st_size
 
     def batches(self, columns: Sequence[str], rows: int) -> Iterator[Any]:
-        """Tables of these columns in the order of the file; all but the last of so many rows or more.
+        """Tables of these columns in the file's order; all but the last of so many rows or more.
 
         Parts of the path such as ``region=north`` are columns, too.
 

@@ -62,7 +62,7 @@ def put(streams: Streams, table: Any) -> None:
     if whole:
         streams.pages.fleets = checked.fleets
     else:
-        streams.pages.put(found.rows, checked.states(good))
+        streams.pages.put(found.rows, good.column("state").to_pylist())
     kept.put(streams, found)
 
 
@@ -87,23 +87,16 @@ class Checked:
     """
 
     def __init__(self, fresh: bytes, table: Any) -> None:
-        states = self.states(table)
         self.fleets: list[Fleet] = []
         self.reasons: dict[int, str] = {}
-        for first in range(0, len(states), PAGE):
-            page = states[first : first + PAGE]
+        for first in range(0, len(table), PAGE):
+            page = table.column("state").slice(first, PAGE).to_pylist()
             try:
                 self.fleets.append(Fleet._of_states(fresh, page))
             except (InvalidInput, TypeError):
                 self.reasons |= _reasons(fresh, page, first)
-        self.good = np.ones(len(states), dtype=bool)
+        self.good = np.ones(len(table), dtype=bool)
         self.good[list(self.reasons)] = False
-
-    @staticmethod
-    def states(table: Any) -> list[Any]:
-        """The bytes of each row."""
-        listed: list[Any] = table.column("state").to_pylist()
-        return listed
 
 
 def _reasons(fresh: bytes, states: list[Any], first: int) -> dict[int, str]:

@@ -86,7 +86,7 @@ class Work:
             self._take(partition, start, progress)
             self.done[partition.name] = partition.size
             if self.state is not None:
-                self._save(self.state)
+                self.fleet.save(self.state, {DONE: json.dumps(self.done).encode()})
             self.seconds += time.perf_counter() - start
 
     def _take(
@@ -107,16 +107,9 @@ class Work:
                     rate = self.rows / (self.seconds + time.perf_counter() - start)
                     progress(len(self.done), len(self.partitions), rate)
 
-    def _save(self, path: Path) -> None:
-        """Write the state of all streams, whole or not at all."""
-        table = self.fleet.to_arrow()
-        about = table.schema.metadata | {DONE: json.dumps(self.done)}
-        feather = extra("pyarrow.feather", PURPOSE)
-        with whole(path) as made:
-            feather.write_feather(table.replace_schema_metadata(about), str(made))
-
     def _go_on(self, path: Path) -> None:
-        feather, own = extra("pyarrow.feather", PURPOSE), self.fleet.to_arrow().schema.metadata
+        feather = extra("pyarrow.feather", PURPOSE)
+        own = self.fleet.to_arrow().schema.metadata
         try:
             table = feather.read_table(str(path))
         except arrow().ArrowException as error:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 
 from forgetting.tables.columns import arrow
 from forgetting.tables.outputs import times
+from forgetting.tables.pages import PAGE
 from forgetting.tables.streams import Streams
 
 Whole = NDArray[np.int64]
@@ -22,31 +24,42 @@ COLUMNS = ("key", "state", "time", "taken", "rows", "missing", "late", "lags")
 
 def to_arrow(streams: Streams, keys: list[Any] | None) -> Any:
     """The table of all streams, or of those of some keys; see `TableFleet.to_arrow`."""
+    if keys is None:
+        return arrow().concat_tables(parts(streams))
     handed_on = streams.refused_rows
-    if keys is not None:
-        if absent := [key for key in keys if key not in streams.keys and key not in handed_on]:
-            raise KeyError(absent[0])
-        handed_on = {key: handed_on[key] for key in keys if key in handed_on}
-    own = _own(streams, keys)
-    table = arrow().concat_tables([own, *(row.cast(own.schema) for row in handed_on.values())])
-    return table.replace_schema_metadata({ABOUT: about_of(streams), FRESH: streams.fresh})
+    if absent := [key for key in keys if key not in streams.keys and key not in handed_on]:
+        raise KeyError(absent[0])
+    there = [key for key in keys if key in streams.keys]
+    at = np.array([streams.keys[key] for key in there], dtype=np.int64)
+    own = _part(streams, at, there, [streams.pages[i].to_bytes() for i in at.tolist()])
+    rows = [handed_on[key].cast(own.schema) for key in keys if key in handed_on]
+    return arrow().concat_tables([own, *rows])
 
 
-def _own(streams: Streams, keys: list[Any] | None) -> Any:
-    """A row for each stream."""
-    pa, every = arrow(), streams.keys.listed()
-    some = (
-        range(len(every)) if keys is None else [streams.keys[k] for k in keys if k in streams.keys]
-    )
-    at = np.array(some, dtype=np.int64)
+def parts(streams: Streams) -> Iterator[Any]:
+    """The table of all streams in parts of a page each, so that it need not be whole in memory."""
+    listed = streams.keys.listed()
+    empty = _part(streams, np.empty(0, dtype=np.int64), [], [])
+    yield empty
+    for page, fleet in enumerate(streams.pages.fleets):
+        at = np.arange(page * PAGE, page * PAGE + len(fleet))
+        yield _part(streams, at, listed[at[0] : at[-1] + 1], fleet._states()[1:])
+    for row in streams.refused_rows.values():
+        yield row.cast(empty.schema)
+
+
+def _part(streams: Streams, at: Whole, keys: list[Any], states: list[bytes]) -> Any:
+    """A row for each of these streams."""
+    pa = arrow()
     columns: dict[str, Any] = {
-        "key": pa.array([every[i] for i in at.tolist()], type=streams.keys.type),
-        "state": _states(streams, None if keys is None else at),
-        "time": times(streams, "seen").take(pa.array(at)),
-        "taken": times(streams, "taken").take(pa.array(at)),
+        "key": pa.array(keys, type=streams.keys.type),
+        "state": pa.array(states, type=pa.large_binary()),
+        "time": times(streams, streams.seen, at),
+        "taken": times(streams, streams.taken, at),
     }
     columns |= {name: pa.array(count.values[at]) for name, count in streams.counts.items()}
-    return pa.table(columns | {"lags": _lags(streams, at)})
+    table = pa.table(columns | {"lags": _lags(streams, at)})
+    return table.replace_schema_metadata({ABOUT: about_of(streams), FRESH: streams.fresh})
 
 
 def about_of(streams: Streams) -> str:
@@ -55,22 +68,13 @@ def about_of(streams: Streams) -> str:
     return json.dumps(about, sort_keys=True)
 
 
-def _states(streams: Streams, at: Whole | None) -> Any:
-    """The bytes of these streams; of all, page by page."""
-    pa, kind = arrow(), arrow().large_binary()
-    if at is not None:
-        return pa.array([streams.pages[i].to_bytes() for i in at.tolist()], type=kind)
-    parts = [pa.array(fleet._states()[1:], type=kind) for fleet in streams.pages.fleets]
-    return pa.chunked_array(parts, type=kind)
-
-
-def _lags(streams: Streams, at: Any) -> Any:
+def _lags(streams: Streams, at: Whole) -> Any:
     """The last rows of each stream as a list of numbers."""
     pa = arrow()
     if streams.lags is None:
         return pa.nulls(len(at), type=pa.list_(pa.float64()))
-    kept = streams.lags.kept.values[at].reshape(len(at), -1)
-    offsets = np.arange(len(at) + 1) * kept.shape[1]
+    kept = streams.lags.kept.values[at]
+    offsets = np.arange(len(at) + 1) * int(np.prod(kept.shape[1:]))
     return pa.ListArray.from_arrays(
         pa.array(offsets, pa.int32()), pa.array(kept.ravel(), from_pandas=True)
     )
