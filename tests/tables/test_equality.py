@@ -80,6 +80,25 @@ def test_lags_are_those_of_the_own_stream(batches):
         assert fleet[key].to_bytes() == est.to_bytes()
 
 
+@pytest.mark.parametrize("batches", [1, 5, 50])
+def test_lags_do_not_reach_across_a_gap(batches):
+    given = table(rows=400, keys=5)
+    fleet = TableFleet("key", "y", ["z"], time="t", arx=(2, 2, 1), gap="40min")
+    size = len(given) // batches
+    for k in range(batches):
+        fleet.update(shuffled(given.slice(k * size, size), k))
+    for key in set(given.column("key").to_pylist()):
+        t, y, z = numbers(of_key(given, key), "t", "y", "z").T
+        phi = np.full((len(y), 4), np.nan)
+        for k in range(2, len(y)):
+            if t[k] - t[k - 1] <= 2400 and t[k - 1] - t[k - 2] <= 2400:
+                phi[k] = [-y[k - 1], -y[k - 2], z[k - 1], z[k - 2]]
+        assert 20 < np.isnan(phi[:, 2]).sum() < len(y) - 10
+        est = fg.RLS(4)
+        est.run(phi, y, missing="skip")
+        assert fleet[key].to_bytes() == est.to_bytes()
+
+
 @pytest.mark.parametrize("batches", [1, 3])
 @pytest.mark.parametrize("dates", [False, True])
 def test_half_lives_go_by_the_clock_of_each_stream(batches, dates):

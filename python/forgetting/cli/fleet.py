@@ -66,6 +66,15 @@ Time = Annotated[
         metavar="COLUMN",
     ),
 ]
+Gap = Annotated[
+    str | None,
+    options.option(
+        options.READING,
+        "Longest step in time across which lags reach, such as 5min; any when absent.",
+        "--gap",
+        metavar="DURATION",
+    ),
+]
 BatchRows = Annotated[
     int, options.option(options.READING, "Rows in memory at a time.", "--batch-rows")
 ]
@@ -108,6 +117,7 @@ def fleet(
     arx: options.Orders = None,
     offset: Offset = True,
     time: Time = None,
+    gap: Gap = None,
     batch_rows: BatchRows = 1_000_000,
     rule: RuleName = None,
     forgetting_factor: options.ForgettingFactor = None,
@@ -143,6 +153,7 @@ def fleet(
         (by, output, input or (), time),
         arx=None if arx is None else parse_orders(arx),
         offset=offset,
+        gap=gap,
         gate=make_gate(gate),
         initial_covariance=parse_covariance(initial_covariance),
         dtype=dtype,

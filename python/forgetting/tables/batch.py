@@ -2,44 +2,22 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from forgetting.tables.clock import Ticks, ticks
+from forgetting.tables.clock import ticks
 from forgetting.tables.columns import numbers
-from forgetting.tables.keys import Found
 from forgetting.tables.order import Groups, grouped
-from forgetting.tables.pages import Samples
+from forgetting.tables.samples import Batch, samples_of
 from forgetting.tables.single import CODES
-from forgetting.tables.streams import NEVER, Streams
+from forgetting.tables.streams import Streams
 
 Array = NDArray[Any]
 
 LATE = 254
 """The code of a row that is older than the last one of its stream; others as in `SKIPPED`."""
-
-
-@dataclass(frozen=True)
-class Batch:
-    """What a table holds for a fleet.
-
-    Attributes
-    ----------
-    table : pyarrow.Table
-    keys : Found
-    ticks : Ticks or None
-    y : (rows,) ndarray
-    phi : list of (rows,) ndarray
-    """
-
-    table: Any
-    keys: Found
-    ticks: Ticks | None
-    y: Array
-    phi: list[Array]
 
 
 def read(streams: Streams, table: Any) -> Batch:
@@ -66,7 +44,7 @@ def take(streams: Streams, batch: Batch, outputs: tuple[str, ...]) -> dict[str, 
     time = None if batch.ticks is None else batch.ticks.values[rows]
     groups = grouped(batch.keys.rows[rows], rows, time)
     groups = _without_late(streams, batch, groups, skipped)
-    samples, kept = _samples(streams, batch, groups)
+    samples, kept = samples_of(streams, batch, groups)
     found = streams.pages.take(samples, _asked(outputs))
     skipped[groups.rows] = found.pop("skipped")
     _count(streams, batch, groups, skipped)
@@ -102,40 +80,6 @@ def _without_late(
     late = batch.ticks.values[groups.rows] < seen
     skipped[groups.rows[late]] = LATE
     return groups.without(late)
-
-
-def _samples(streams: Streams, batch: Batch, groups: Groups) -> tuple[Samples, Array | None]:
-    """The samples of grouped rows, and the rows that are to be kept for lags."""
-    dtype, model = np.dtype(streams.pages.new.dtype), streams.model
-    phi = np.empty((len(batch.y), len(batch.phi) + model.offset), dtype=np.float64)
-    for j, values in enumerate(batch.phi):
-        phi[:, j] = values
-    if model.offset:
-        phi[:, -1] = 1.0
-    phi, y, kept = phi.take(groups.rows, axis=0), batch.y.take(groups.rows), None
-    if streams.lags is not None:
-        signals = np.column_stack([y, phi[:, : len(batch.phi)]])
-        lagged, kept = streams.lags.regressors(groups, signals)
-        phi = np.column_stack([lagged, phi[:, len(batch.phi) :]])
-    time, last = _times(streams, batch, groups)
-    return Samples(
-        groups, phi.astype(dtype, copy=False), y.astype(dtype, copy=False), time, last
-    ), kept
-
-
-def _times(streams: Streams, batch: Batch, groups: Groups) -> tuple[Array | None, Array | None]:
-    """When samples were taken, and the last ones before, in units of time; None without a clock.
-
-    Whole ticks are counted from the first of the batch, so that no digit of a date is lost.
-    """
-    if batch.ticks is None or streams.taken is None:
-        return None, None
-    values = batch.ticks.values[groups.rows]
-    before = streams.taken.of(groups.streams)
-    never = before == NEVER[before.dtype.kind]
-    origin = values.min() if values.dtype.kind == "i" and len(values) else 0
-    last = (np.where(never, origin, before) - origin) / batch.ticks.per_unit
-    return (values - origin) / batch.ticks.per_unit, np.where(never, np.nan, last)
 
 
 def _count(streams: Streams, batch: Batch, groups: Groups, skipped: NDArray[np.uint8]) -> None:

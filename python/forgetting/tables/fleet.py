@@ -47,6 +47,8 @@ class TableFleet:
         Whether a constant regressor of 1 comes after the others.
     arx : (na, nb, nk) or Orders, optional
         Makes regressors of each stream's own past, see `forgetting.ARX`.
+    gap : str, duration or float, optional
+        Longest step in time that lags reach across, such as "5min"; any if not given.
     half_life : str, duration or float, optional
         Of a rule with a forgetting factor, by the clock of each stream: "10min", or a number in
         the unit of `time` (seconds for dates). Streams then go one by one, some 20 µs each
@@ -81,12 +83,13 @@ class TableFleet:
         time: str | None = None,
         offset: bool = False,
         arx: Sequence[int] | Orders | None = None,
+        gap: Any = None,
         half_life: Any = None,
         rule: Any = None,
         forgetting_factor: float | None = None,
         **settings: Any,
     ) -> None:
-        model = made(key, y, phi, time, offset, arx)
+        model = made(key, y, phi, time, offset, arx, gap)
         if half_life is not None:
             if time is None or forgetting_factor is not None:
                 raise InvalidInput("half_life goes with time, and without forgetting_factor")

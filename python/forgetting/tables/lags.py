@@ -33,7 +33,9 @@ class Lags:
         self.orders = orders
         self.kept = Growing(np.nan, np.float64, (orders.reach, 1 + inputs))
 
-    def regressors(self, groups: Groups, signals: Array) -> tuple[Array, Array]:
+    def regressors(
+        self, groups: Groups, signals: Array, breaks: NDArray[np.bool_]
+    ) -> tuple[Array, Array]:
         """The regressors of grouped rows, and what is to be kept after them.
 
         Parameters
@@ -41,6 +43,8 @@ class Lags:
         groups : Groups
         signals : (r, 1 + inputs) ndarray
             y and the inputs, grouped.
+        breaks : (r,) ndarray of bool
+            Rows before which lags end.
 
         Returns
         -------
@@ -49,14 +53,28 @@ class Lags:
         kept : (g, reach, 1 + inputs) ndarray
             The last rows of each group.
         """
-        reach, count = self.orders.reach, len(groups.streams)
-        before = reach * np.arange(1, count + 1)
-        own = np.arange(len(signals)) + np.repeat(before, groups.counts)
-        together = np.empty((len(signals) + reach * count, signals.shape[1]))
+        reach = self.orders.reach
+        first = breaks.copy()
+        first[groups.starts] = True
+        starts = np.flatnonzero(first)  # of pieces that lags stay within
+        counts = np.diff(starts, append=len(signals))
+        before = reach * np.arange(1, len(starts) + 1)
+        own = np.arange(len(signals)) + np.repeat(before, counts)
+        together = np.empty((len(signals) + reach * len(starts), signals.shape[1]))
         together[own] = signals
         back = np.arange(reach)
-        first = (groups.starts + before - reach)[:, None] + back
-        together[first] = self.kept.of(groups.streams)
+        together[(starts + before - reach)[:, None] + back] = self._before(groups, starts, breaks)
         phi = regressors(together[:, 1:], together[:, :1], self.orders)[own]
-        last = (groups.starts + groups.counts + before - reach)[:, None] + back
-        return phi, together[last]
+        last = np.searchsorted(starts, groups.starts + groups.counts) - 1
+        ends = (starts + counts + before - reach)[last]
+        return phi, together[ends[:, None] + back]
+
+    def _before(
+        self, groups: Groups, starts: NDArray[np.int64], breaks: NDArray[np.bool_]
+    ) -> Array:
+        """The rows before each piece: those kept of the stream, or none after a break."""
+        found = np.full((len(starts), *self.kept.values.shape[1:]), np.nan)
+        kept = self.kept.of(groups.streams)
+        kept[breaks[groups.starts]] = np.nan
+        found[np.searchsorted(starts, groups.starts)] = kept
+        return found

@@ -9,6 +9,7 @@ from typing import Any
 from forgetting._core import InvalidInput
 from forgetting.models.lags import names
 from forgetting.models.orders import Orders
+from forgetting.words.duration import seconds_of
 
 
 @dataclass(frozen=True)
@@ -27,6 +28,9 @@ class Model:
         Whether a regressor of 1 comes after the others.
     arx : Orders, optional
         Past outputs, inputs and delay; lags are those of the row's own stream.
+    gap : float, optional
+        Longest step in time that lags reach across, in seconds where times are dates, else in
+        their unit; any if there is none.
 
     Raises
     ------
@@ -40,6 +44,7 @@ class Model:
     time: str | None = None
     offset: bool = False
     arx: Orders | None = None
+    gap: float | None = None
 
     def __post_init__(self) -> None:
         for name in self.columns:
@@ -52,6 +57,8 @@ class Model:
             raise InvalidInput(f"phi = {list(self.phi)}, allowed: each column once, and not y")
         if self.arx is not None and bool(self.phi) != bool(self.arx.nb):
             raise InvalidInput(f"phi = {list(self.phi)} with nb = {self.arx.nb}: inputs go with nb")
+        if self.gap is not None and (self.time is None or self.arx is None or not self.gap > 0):
+            raise InvalidInput(f"gap = {self.gap}, allowed: above 0, with time and arx")
         if not self.regressors:
             raise InvalidInput("phi is empty, allowed: one column or more, an offset, or arx")
 
@@ -84,10 +91,16 @@ def made(
     time: str | None,
     offset: bool,
     arx: Sequence[int] | Orders | None,
+    gap: Any,
 ) -> Model:
-    """The model of what a user gives; one column needs no list."""
+    """The model of what a user gives; one column needs no list, and a gap may be a text."""
     if arx is not None and not isinstance(arx, Orders):
         if len(arx) != 3:
             raise InvalidInput(f"arx = {tuple(arx)}, allowed: three whole numbers na, nb, nk")
         arx = Orders(*arx)
-    return Model(key, y, (phi,) if isinstance(phi, str) else tuple(phi), time, offset, arx)
+    try:
+        longest = None if gap is None else seconds_of(gap)
+    except ValueError as error:
+        raise InvalidInput(f"gap = {gap!r}: {error}") from None
+    columns = (phi,) if isinstance(phi, str) else tuple(phi)
+    return Model(key, y, columns, time, offset, arx, longest)

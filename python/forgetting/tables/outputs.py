@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from forgetting._core import SKIPPED, InvalidInput
-from forgetting.tables.batch import LATE, Batch
+from forgetting.tables.batch import LATE
 from forgetting.tables.columns import arrow
 from forgetting.tables.growing import Growing
 from forgetting.tables.model import Model
+from forgetting.tables.samples import Batch
 from forgetting.tables.streams import NEVER, Streams
 
 NAMES = ("prediction", "error", "leverage", "theta", "variance", "skipped")
