@@ -100,6 +100,11 @@ def test_batches_of_any_size_and_files_of_any_kind(forgetting, data, tmp_path):
     csv.write_csv(part(1), mixed / "site=a" / "1.csv")
     parquet.write_table(part(2), mixed / "site=a" / "2.data")
     parquet.write_table(part(3), mixed / "site=a" / "3.parquet")
+    sites = ("--by", "site", "--output", "y", "--input", "u")
+    told = json.loads(forgetting("fleet", mixed, *sites, "--out", tmp_path / "o", "--json").out)
+    assert told["totals"]["streams"] == 1 and told["totals"]["rows"] == 3 * ROWS
+    names = [p.name for p in sorted((tmp_path / "o" / "site=a").iterdir())]
+    assert names == ["0.arrow.parquet", "1.csv.parquet", "3.parquet"]
     expected = None
     for source, rows in ((f"{mixed}/*/*", 10**6), (str(data), 10**6), (str(data), 250)):
         run = forgetting("fleet", source, *MODEL, "--batch-rows", rows, "--json")

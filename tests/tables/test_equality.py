@@ -131,3 +131,16 @@ def test_more_than_ten_parameters_agree_to_rounding():
         est.run(phi[key == k], y[key == k])
         # measured 4e-13, from sums in another order
         np.testing.assert_allclose(fleet[k].theta, est.theta, rtol=0, atol=1e-10)
+
+
+@pytest.mark.parametrize("bad", [np.inf, np.nan])
+@pytest.mark.parametrize("batches", [1, 3])
+def test_rows_that_are_left_out_take_no_time_of_their_own(bad, batches):
+    fleet = TableFleet("key", "y", "x", time="t", half_life=5.0, rule="exponential")
+    rows = pa.table({"key": [1] * 3, "t": [0.0, 7.0, 20.0], "x": [1.0, bad, 2.0], "y": [1.0] * 3})
+    for k in range(batches):
+        fleet.update(rows.slice(k * 3 // batches, 3 // batches))
+    est = fg.RLS(1, rule=fg.Exponential(half_life=5.0))
+    est.update([1.0], 1.0)
+    est.update([2.0], 1.0, elapsed=20.0)
+    assert fleet[1].to_bytes() == est.to_bytes()

@@ -127,6 +127,13 @@ def test_rows_without_a_value_are_counted_and_left_out():
     assert (row["rows"], row["samples"], row["missing"], row["t"]) == (5, 1, 3, 5)
 
 
+def test_what_float32_cannot_hold_is_refused():
+    fleet = TableFleet("key", "y", "x", dtype="float32")
+    told = fleet.update({"key": [1] * 3, "x": [1.0, 1e300, 1.0], "y": [1.0, 1.0, -1e300]})
+    assert told.column("skipped").to_pylist() == [None, "refused", "refused"]
+    assert told.column("prediction").to_pylist() == [0.0, None, None]
+
+
 def test_predictions_are_of_the_estimate_of_before():
     given, fleet = table(), new()
     told = fleet.update(given, ["prediction", "theta"])
@@ -272,6 +279,7 @@ def test_what_is_no_table(batch):
         ({"half_life": "1h", "time": "t", "rule": "none"}, "a rule with a forgetting factor"),
         ({"half_life": "soon", "time": "t", "rule": "exponential"}, "half_life"),
         ({"forgetting_factor": [0.9, 0.8]}, "one number for all streams"),
+        ({"forgetting_factor": np.array([0.9])}, "one number for all streams"),
         ({"initial_covariance": -1.0}, "initial_covariance"),
         ({"initial_covariance": [[1.0, 2.0]], "phi": ["x", "z"]}, "initial_covariance"),
         ({"rule": "best"}, "rule = "),

@@ -159,7 +159,9 @@ def fleet(
         dtype=dtype,
         **chosen,
     )
-    work = Work(made, find(data), out, state, tell.split(","), batch_rows)
+    work = Work(
+        made, find(data), out, state, [name.strip() for name in tell.split(",")], batch_rows
+    )
     with rate_bar("partitions") as progress:
         work.run(progress)
     return finish(work, streams, as_json)

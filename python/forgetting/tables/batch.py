@@ -51,7 +51,9 @@ def take(streams: Streams, batch: Batch, outputs: tuple[str, ...]) -> dict[str, 
     _remember(streams, batch, groups, skipped, kept)
     told = {name: _in_order(groups, values, len(batch.y)) for name, values in found.items()}
     if "prediction" in outputs:
-        told["prediction"] = batch.y.astype(told["error"].dtype, copy=False) - told["error"]
+        with np.errstate(over="ignore"):
+            y = batch.y.astype(told["error"].dtype, copy=False)
+        told["prediction"] = y - told["error"]
     return told | {"skipped": skipped}
 
 

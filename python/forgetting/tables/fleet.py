@@ -94,7 +94,7 @@ class TableFleet:
             if time is None or forgetting_factor is not None:
                 raise InvalidInput("half_life goes with time, and without forgetting_factor")
             rule = with_half_life(rule, half_life)
-        if np.ndim(forgetting_factor or 0):
+        if np.ndim(0.0 if forgetting_factor is None else forgetting_factor):
             raise InvalidInput("forgetting_factor must be one number for all streams")
         chosen = {"rule": rule, "forgetting_factor": forgetting_factor, **settings}
         # two streams, so that what is given for all cannot be taken for what is given for one

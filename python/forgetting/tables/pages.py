@@ -84,6 +84,12 @@ class Pages:
         """A copy of the stream of this number."""
         return self.fleets[stream // PAGE][stream % PAGE]
 
+    def replace(self, fleets: list[Fleet]) -> None:
+        """Have these pages, all full but the last."""
+        self.fleets = fleets
+        for fleet in fleets:
+            fleet.threads = self.new.threads
+
     def put(self, streams: NDArray[np.int64], states: Sequence[bytes]) -> None:
         """Put saved states in the place of streams that are there."""
         for stream, state in zip(streams.tolist(), states, strict=True):

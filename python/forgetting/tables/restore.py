@@ -60,7 +60,7 @@ def put(streams: Streams, table: Any) -> None:
         streams.keep_times(kept.ticks.type, kept.ticks.values.dtype)
     streams.start(found)
     if whole:
-        streams.pages.fleets = checked.fleets
+        streams.pages.replace(checked.fleets)
     else:
         streams.pages.put(found.rows, good.column("state").to_pylist())
     kept.put(streams, found)

@@ -15,6 +15,7 @@ from forgetting.extras import extra
 from forgetting.files import belongs, same, whole
 from forgetting.tables.columns import PURPOSE, arrow
 from forgetting.tables.fleet import TableFleet
+from forgetting.tables.outputs import checked
 from forgetting.tables.partitions import Partition
 from forgetting.words.errors import RecordError, first_line
 
@@ -34,7 +35,8 @@ class Work:
         One that has seen nothing; where there is a state, the fleet of the state takes its place.
     partitions : list of Partition
     out : Path, optional
-        A folder for what is told of the rows: a Parquet file for each partition, of its name.
+        A folder for what is told of the rows: a Parquet file for each partition, of its name
+        (``a.csv.parquet`` for ``a.csv``).
     state : Path, optional
         An Arrow file, written after every partition. If it is there already, the work goes on
         from it: partitions that it calls done are left out.
@@ -70,6 +72,7 @@ class Work:
     def __post_init__(self) -> None:
         if self.batch_rows < 1:
             raise RecordError(f"batch_rows = {self.batch_rows}, allowed: whole numbers from 1")
+        self.outputs = checked(self.outputs)
         self._check_outputs()
         if self.state is not None and self.state.exists():
             self._go_on(self.state)
@@ -141,7 +144,8 @@ def _writer(out: Path | None, partition: Partition) -> Iterator[Callable[[Any], 
     if out is None:
         yield lambda table: None
         return
-    path = (out / partition.name).with_suffix(".parquet")
+    named = out / partition.name
+    path = named if named.suffix == ".parquet" else named.with_name(f"{named.name}.parquet")
     path.parent.mkdir(parents=True, exist_ok=True)
     parquet = extra("pyarrow.parquet", PURPOSE)
     with whole(path) as made, ExitStack() as opened:

@@ -52,9 +52,9 @@ def samples_of(streams: Streams, batch: Batch, groups: Groups) -> tuple[Samples,
         lagged, kept = streams.lags.regressors(groups, signals, breaks)
         phi = np.column_stack([lagged, phi[:, len(batch.phi) :]])
     time, last = _times(streams, batch, groups)
-    return Samples(
-        groups, phi.astype(dtype, copy=False), y.astype(dtype, copy=False), time, last
-    ), kept
+    with np.errstate(over="ignore"):  # what float32 cannot hold is infinite, and is refused
+        phi, y = phi.astype(dtype, copy=False), y.astype(dtype, copy=False)
+    return Samples(groups, phi, y, time, last), kept
 
 
 def _breaks(streams: Streams, batch: Batch, groups: Groups) -> NDArray[np.bool_]:
