@@ -45,8 +45,7 @@ def test_a_saved_fleet_goes_on_bit_for_bit(settings, file, tmp_path):
     if file:
         fleet.save(tmp_path / "f.arrow")
         assert feather.read_table(tmp_path / "f.arrow").equals(saved)
-        saved = feather.read_table(tmp_path / "f.arrow")
-    again = TableFleet.from_arrow(saved)
+    again = TableFleet.load(tmp_path / "f.arrow") if file else TableFleet.from_arrow(saved)
     assert again.keys() == fleet.keys() and again.model == fleet.model
     assert fleet.update(second).equals(again.update(second))
     assert fleet.to_arrow().equals(again.to_arrow())
@@ -64,6 +63,30 @@ def test_some_streams_move_to_another_fleet(settings):
     for key in fleet:
         assert two[0][key].to_bytes() == fleet[key].to_bytes()
         assert two[0].to_arrow([key]).equals(fleet.to_arrow([key]))
+
+
+@pytest.mark.parametrize("altered_row", [None, 1, 4, 12])
+def test_a_file_of_many_pages(altered_row, tmp_path, monkeypatch):
+    for module in ("pages", "state", "restore"):
+        monkeypatch.setattr(f"forgetting.tables.{module}.PAGE", 4)
+    given = table(rows=900, keys=14)
+    fleet = TableFleet("key", "y", **FLEETS["lags"])
+    fleet.update(given.slice(0, 500))
+    fleet.save(tmp_path / "f.arrow")
+    bad = None
+    if altered_row is not None:
+        saved = altered(feather.read_table(tmp_path / "f.arrow"), altered_row)
+        bad = saved.column("key")[altered_row].as_py()
+        batches = saved.to_batches(max_chunksize=4)
+        with pa.ipc.new_file(str(tmp_path / "f.arrow"), saved.schema) as file:
+            for batch in batches:
+                file.write_batch(batch)
+    again = TableFleet.load(tmp_path / "f.arrow")
+    assert list(again.refused) == [bad] * (bad is not None)
+    for each in (fleet, again):
+        each.update(given.slice(500))
+    for key in fleet:
+        assert key == bad or again.to_arrow([key]).equals(fleet.to_arrow([key]))
 
 
 def test_put_replaces_streams_that_are_there():

@@ -177,7 +177,8 @@ def test_an_empty_batch_is_no_news(more):
     empty = pa.table(ROWS).slice(0, 0)
     assert len(fleet.update(empty)) == 0 and len(fleet) == 0
     assert fleet.estimates().num_rows == 0 and fleet.to_arrow().num_rows == 0
-    assert len(TableFleet.from_arrow(fleet.to_arrow())) == 0
+    again = TableFleet.from_arrow(fleet.to_arrow())
+    assert len(again) == 0 and len(again.update(ROWS)) == 3
     fleet.update(ROWS)
     before = fleet.to_arrow()
     assert len(fleet.update(empty, ["theta", "skipped"])) == 0

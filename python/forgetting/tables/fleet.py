@@ -200,8 +200,7 @@ class TableFleet:
     def save(self, path: str | Path, metadata: Mapping[bytes, bytes] | None = None) -> None:
         """Write the state of all streams as an Arrow file, whole or not at all.
 
-        It is the table of `to_arrow`, written page by page, so that little memory is needed; read
-        it with ``pyarrow.feather.read_table``.
+        It is the table of `to_arrow`, written page by page, so that little memory is needed.
 
         Parameters
         ----------
@@ -228,6 +227,19 @@ class TableFleet:
         """
         fleet = cls.__new__(cls)
         fleet._take_over(restore.from_arrow(table_of(table), threads))
+        return fleet
+
+    @classmethod
+    def load(cls, path: str | Path, threads: int | None = None) -> TableFleet:
+        """The fleet that `save` wrote, as `from_arrow`, read page by page.
+
+        Raises
+        ------
+        InvalidInput
+            When the file holds something else.
+        """
+        fleet = cls.__new__(cls)
+        fleet._take_over(restore.load(str(path), threads))
         return fleet
 
     def put(self, table: Any) -> None:

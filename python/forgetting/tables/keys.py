@@ -49,8 +49,8 @@ class Keys:
 
     def add(self, keys: Sequence[Any], kind: Any) -> None:
         """Number keys that are new."""
-        self.type = kind
         if keys:
+            self.type = kind
             self._number |= zip(keys, range(len(self), len(self) + len(keys)), strict=True)
             self._arrays.append(arrow().array(keys, type=kind))
 

@@ -84,9 +84,9 @@ class Pages:
         """A copy of the stream of this number."""
         return self.fleets[stream // PAGE][stream % PAGE]
 
-    def replace(self, fleets: list[Fleet]) -> None:
-        """Have these pages, all full but the last."""
-        self.fleets = fleets
+    def replace(self, stream: int, fleets: list[Fleet]) -> None:
+        """Have these pages from that of this stream, its first, on; all are full but the last."""
+        self.fleets[stream // PAGE :] = fleets
         for fleet in fleets:
             fleet.threads = self.new.threads
 

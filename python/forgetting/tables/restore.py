@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from forgetting._core import Fleet, InvalidInput
+from forgetting.extras import extra
 from forgetting.tables.clock import ticks
-from forgetting.tables.columns import arrow, column
+from forgetting.tables.columns import PURPOSE, arrow, column
 from forgetting.tables.keys import Found
 from forgetting.tables.model import Model
 from forgetting.tables.pages import PAGE
 from forgetting.tables.state import ABOUT, COLUMNS, FORMAT, FRESH, about_of
 from forgetting.tables.streams import NEVER, Streams
+from forgetting.words.errors import first_line
 
 
 def from_arrow(table: Any, threads: int | None) -> Streams:
@@ -25,6 +28,27 @@ def from_arrow(table: Any, threads: int | None) -> Streams:
     streams = Streams(Model.of(about), by_clock, table.schema.metadata[FRESH], threads)
     put(streams, table)
     return streams
+
+
+def load(path: str, threads: int | None) -> Streams:
+    """The streams of a file; see `TableFleet.load`."""
+    parts = file_parts(path)
+    streams = from_arrow(next(parts), threads)
+    for part in parts:
+        put(streams, part)
+    return streams
+
+
+def file_parts(path: str) -> Iterator[Any]:
+    """The table of a file, first without rows, then the rows part by part."""
+    pa = arrow()
+    try:
+        with extra("pyarrow.ipc", PURPOSE).open_file(path) as file:
+            yield file.schema.empty_table()
+            for number in range(file.num_record_batches):
+                yield pa.Table.from_batches([file.get_batch(number)])
+    except pa.ArrowException as error:
+        raise InvalidInput(f"{path} is no state of a fleet: {first_line(error)}") from None
 
 
 def _read_about(table: Any) -> dict[str, Any]:
@@ -55,12 +79,12 @@ def put(streams: Streams, table: Any) -> None:
     kept = Kept(streams, good)
     for row, reason in checked.reasons.items():
         _refuse(streams, table.slice(row, 1), reason)
-    whole = not len(streams.keys) and not checked.reasons
+    count, only_new = len(streams.keys), len(found.added) == len(found.rows)
     if kept.ticks is not None:
         streams.keep_times(kept.ticks.type, kept.ticks.values.dtype)
     streams.start(found)
-    if whole:
-        streams.pages.replace(checked.fleets)
+    if only_new and not checked.reasons and count % PAGE == 0:
+        streams.pages.replace(count, checked.fleets)
     else:
         streams.pages.put(found.rows, good.column("state").to_pylist())
     kept.put(streams, found)

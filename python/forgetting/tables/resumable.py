@@ -13,11 +13,12 @@ from typing import Any
 from forgetting._core import InvalidInput
 from forgetting.extras import extra
 from forgetting.files import belongs, same, whole
-from forgetting.tables.columns import PURPOSE, arrow
+from forgetting.tables.columns import PURPOSE
 from forgetting.tables.fleet import TableFleet
 from forgetting.tables.outputs import checked
 from forgetting.tables.partitions import Partition
-from forgetting.words.errors import RecordError, first_line
+from forgetting.tables.restore import file_parts
+from forgetting.words.errors import RecordError
 
 DONE = b"forgetting.tables.done"
 """Where the state keeps the partitions that are done, among the metadata of its schema."""
@@ -111,19 +112,15 @@ class Work:
                     progress(len(self.done), len(self.partitions), rate)
 
     def _go_on(self, path: Path) -> None:
-        feather = extra("pyarrow.feather", PURPOSE)
         own = self.fleet.to_arrow().schema.metadata
-        try:
-            table = feather.read_table(str(path))
-        except arrow().ArrowException as error:
-            raise RecordError(f"{path} is no state of a fleet: {first_line(error)}") from None
-        metadata = table.schema.metadata or {}
+        metadata = next(file_parts(str(path))).schema.metadata or {}
         if DONE not in metadata:
             raise RecordError(f"{path} is no state of a fleet over partitions")
         if any(metadata.get(name) != value for name, value in own.items()):
             raise RecordError(f"{path} is of other columns or another rule; name another file")
         self.done = json.loads(metadata[DONE])
-        self.fleet.put(table)
+        for part in file_parts(str(path)):
+            self.fleet.put(part)
         for each in self.partitions:
             if self.done.get(each.name, each.size) != each.size:
                 raise RecordError(f"{each.name} has changed since it was done; see {path}")
