@@ -74,7 +74,7 @@ def test_lags_are_those_of_the_own_stream(batches):
         y, z = numbers(of_key(given, key), "y", "z").T
         phi = np.full((len(y), 5), np.nan)
         for k in range(2, len(y)):
-            phi[k] = [-y[k - 1], -y[k - 2], z[k - 1], z[k - 2], 1.0]
+            phi[k] = [y[k - 1], y[k - 2], z[k - 1], z[k - 2], 1.0]
         est = fg.RLS(5)
         est.run(phi, y, missing="skip")
         assert fleet[key].to_bytes() == est.to_bytes()
@@ -92,7 +92,7 @@ def test_lags_do_not_reach_across_a_gap(batches):
         phi = np.full((len(y), 4), np.nan)
         for k in range(2, len(y)):
             if t[k] - t[k - 1] <= 2400 and t[k - 1] - t[k - 2] <= 2400:
-                phi[k] = [-y[k - 1], -y[k - 2], z[k - 1], z[k - 2]]
+                phi[k] = [y[k - 1], y[k - 2], z[k - 1], z[k - 2]]
         assert 20 < np.isnan(phi[:, 2]).sum() < len(y) - 10
         est = fg.RLS(4)
         est.run(phi, y, missing="skip")

@@ -69,7 +69,7 @@ class Model:
 
     @property
     def regressors(self) -> list[str]:
-        """What each parameter belongs to, as in ``-V(k-1)``, ``I(k)`` or ``offset``."""
+        """What each parameter belongs to, as in ``V(k-1)``, ``I(k)`` or ``offset``."""
         own = list(self.phi) if self.arx is None else names([self.y], self.phi, self.arx)
         return own + ["offset"] * self.offset
 
