@@ -95,6 +95,14 @@ def test_few_rows_and_many_keys_find_the_same_streams():
     assert (fleet[7].samples, fleet[8].samples, fleet[2000].samples, len(fleet)) == (3, 1, 1, 1001)
 
 
+def test_what_was_told_does_not_change_with_later_batches():
+    fleet = new()
+    told, standing = fleet.update(ROWS, "theta"), fleet.estimates()
+    before = told.to_pylist(), standing.to_pylist()
+    fleet.update(ROWS, "theta")
+    assert (told.to_pylist(), standing.to_pylist()) == before
+
+
 def test_late_rows_are_counted_and_left_out():
     fleet = new()
     fleet.update(ROWS)
@@ -268,6 +276,9 @@ def test_what_is_no_table(batch):
         ({"phi": [3]}, "a column is 3"),
         ({"y": "key"}, "two roles"),
         ({"time": "key"}, "two roles"),
+        ({"phi": ["x", "offset"], "offset": True}, "each name once"),
+        ({"key": "status"}, "no name of an output"),
+        ({"time": "error"}, "no name of an output"),
         ({"arx": (1, 2)}, "three whole numbers"),
         ({"arx": (1, 0, 0)}, "inputs go with nb"),
         ({"arx": (-1, 1, 0)}, "na is -1"),

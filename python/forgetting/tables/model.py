@@ -11,6 +11,11 @@ from forgetting.models.lags import names
 from forgetting.models.orders import Orders
 from forgetting.words.duration import seconds_of
 
+NAMES = ("prediction", "error", "leverage", "theta", "variance", "skipped")
+"""All outputs of a row."""
+STANDING = ("rows", "samples", "missing", "late", "status")
+"""What is told of a stream, besides its parameters."""
+
 
 @dataclass(frozen=True)
 class Model:
@@ -53,12 +58,16 @@ class Model:
         for role in (self.key, self.time):
             if role is not None and self.columns.count(role) > 1:
                 raise InvalidInput(f"column {role!r} has two roles: key, time, y and phi are apart")
+            if role in (*NAMES, *STANDING):
+                raise InvalidInput(f"column {role!r} as key or time, allowed: no name of an output")
         if self.y in self.phi or len(set(self.phi)) < len(self.phi):
             raise InvalidInput(f"phi = {list(self.phi)}, allowed: each column once, and not y")
         if self.arx is not None and bool(self.phi) != bool(self.arx.nb):
             raise InvalidInput(f"phi = {list(self.phi)} with nb = {self.arx.nb}: inputs go with nb")
         if self.gap is not None and (self.time is None or self.arx is None or not self.gap > 0):
             raise InvalidInput(f"gap = {self.gap}, allowed: above 0, with time and arx")
+        if len(set(self.regressors)) < len(self.regressors):
+            raise InvalidInput(f"regressors are {self.regressors}, allowed: each name once")
         if not self.regressors:
             raise InvalidInput("phi is empty, allowed: one column or more, an offset, or arx")
 

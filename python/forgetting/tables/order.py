@@ -30,11 +30,6 @@ class Groups:
     starts: Whole
     counts: Whole
 
-    @property
-    def nth(self) -> Whole:
-        """(r,): how many rows of its group come before each."""
-        return np.arange(len(self.rows)) - np.repeat(self.starts, self.counts)
-
     def without(self, left_out: NDArray[np.bool_]) -> Groups:
         """The rows that are not left out, (r,); a group may become empty and is then gone."""
         if not left_out.any():

@@ -12,12 +12,9 @@ from forgetting._core import SKIPPED, InvalidInput
 from forgetting.tables.batch import LATE
 from forgetting.tables.columns import arrow
 from forgetting.tables.growing import Growing
-from forgetting.tables.model import Model
+from forgetting.tables.model import NAMES, Model
 from forgetting.tables.samples import Batch
 from forgetting.tables.streams import NEVER, Streams
-
-NAMES = ("prediction", "error", "leverage", "theta", "variance", "skipped")
-"""All outputs of a row."""
 
 WORDS = {code: word for code, word in (SKIPPED | {LATE: "late"}).items() if word is not None}
 
@@ -71,9 +68,9 @@ def standing(streams: Streams) -> Any:
     columns = {model.key: pa.array(streams.keys.listed(), type=streams.keys.type)}
     if model.time is not None:
         columns[model.time] = times(streams, streams.seen, np.arange(len(streams.keys)))
-    columns["rows"] = pa.array(streams.rows.values)
+    columns["rows"] = pa.array(streams.rows.values.copy())  # not what later batches count on
     columns["samples"] = pa.array(pages.gather(lambda fleet: fleet.samples))
-    columns |= {name: pa.array(streams.counts[name].values) for name in ("missing", "late")}
+    columns |= {name: pa.array(streams.counts[name].values.copy()) for name in ("missing", "late")}
     columns["status"] = pa.array(pages.gather(lambda fleet: fleet.health().status), pa.string())
     return pa.table(columns | by_regressor(model, "theta", pages.gather(lambda fleet: fleet.theta)))
 
