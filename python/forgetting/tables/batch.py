@@ -78,8 +78,10 @@ def _without_late(
 ) -> Groups:
     if batch.ticks is None or streams.seen is None:
         return groups
-    seen = np.repeat(streams.seen.of(groups.streams), groups.counts)
-    late = batch.ticks.values[groups.rows] < seen
+    seen = streams.seen.of(groups.streams)
+    if not (batch.ticks.values[groups.rows[groups.starts]] < seen).any():
+        return groups  # nor are the others: they are in the order of time
+    late = batch.ticks.values[groups.rows] < np.repeat(seen, groups.counts)
     skipped[groups.rows[late]] = LATE
     return groups.without(late)
 

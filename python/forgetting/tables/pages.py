@@ -159,7 +159,9 @@ class _Part:
         step = min(rounds, max(1, ROUNDS_AT_ONCE // (size * n)))
         for first in range(0, rounds, step):
             some = min(step, rounds - first)
-            rows = np.flatnonzero((nth >= first) & (nth < first + some))
+            rows: Any = slice(None)  # all of them, most often
+            if some < self.counts.max():
+                rows = np.flatnonzero((nth >= first) & (nth < first + some))
             at = place[rows] - first * size
             phi = np.zeros((some * size, n), dtype=self.phi.dtype)
             y = np.full(some * size, np.nan, dtype=self.y.dtype)
