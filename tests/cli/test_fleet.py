@@ -263,7 +263,12 @@ def test_bad_files(forgetting, data, tmp_path):
 
     assert "there is no file" in refused(tmp_path / "nothing*.parquet")
     assert "write elsewhere" in refused(data, "--out", data)
-    assert "is a partition" in refused(data, "--state", data / "part0.parquet")
+    for option in ("--state", "--streams"):
+        for path in (data / "part0.parquet", data / "new.parquet"):
+            assert "is the record that is read" in refused(data, option, path)
+        assert "is the record" in refused(data / "*.parquet", option, data / "part1.parquet")
+    assert "are one file" in refused(data, "--state", "a.parquet", "--streams", "a.parquet")
+    assert len(list(data.iterdir())) == FILES
     state = tmp_path / "f.arrow"
     forgetting("fleet", data / "part0.parquet", *MODEL, "--state", state)
     before = state.read_bytes()

@@ -147,7 +147,9 @@ def fleet(
         raise RecordError("--half-life goes without --forgetting-factor and --rate")
     if streams is not None and streams.suffix.lower() != ".parquet":
         raise RecordError(f"--streams writes .parquet, but got {streams.name!r}")
-    check_outputs({"--state": state, "--streams": streams})
+    partitions = find(data)
+    for read in (*map(Path, data), *(each.path for each in partitions)):
+        check_outputs({"--state": state, "--streams": streams}, read)
     chosen = rule_of(rule, forgetting_factor, half_life, threshold, settings or [], rate)
     made = new_fleet(
         (by, output, input or (), time),
@@ -159,9 +161,8 @@ def fleet(
         dtype=dtype,
         **chosen,
     )
-    work = Work(
-        made, find(data), out, state, [name.strip() for name in tell.split(",")], batch_rows
-    )
+    told = [name.strip() for name in tell.split(",")]
+    work = Work(made, partitions, out, state, told, batch_rows)
     with rate_bar("partitions") as progress:
         work.run(progress)
     return finish(work, streams, as_json)
