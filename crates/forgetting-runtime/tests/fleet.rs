@@ -168,7 +168,7 @@ fn what_a_fleet_cannot_be_is_refused() {
         Fleet::new(count, settings, factor).err().unwrap().to_string()
     };
     let settings = Settings::new(N);
-    assert_eq!(refused(0, &settings, None), "count = 0, allowed: whole numbers from 1");
+    assert_eq!(refused(-1, &settings, None), "count = -1, allowed: whole numbers from 0");
     let bad = [0.9, 1.1, 0.9, 0.9];
     let factor = Some(view(&bad, &[4]));
     assert_eq!(refused(4, &settings, factor), "stream 1: forgetting_factor = 1.1, allowed: (0, 1]");
