@@ -7,7 +7,8 @@
 #   make accuracy   one-step errors beside peers and the best that could have been chosen in hindsight, on the
 #                records of the demo; RECORDS=folder for other ones, .csv or .parquet
 #   make docs    the documentation, warnings as errors
-#   make fuzz    random input for FUZZ_SECONDS a target (an hour), new seeds each time
+#   make fuzz    random input for FUZZ_SECONDS a target (an hour), new seeds each time: estimators, saved
+#                states, text files, formulas, clocks, tables of fleets
 #   make soak    a billion samples through every rule of O(n^2), the default and the bank, in hours; goes on
 #                where it was stopped; SOAK_ONLY=bank,subspace for some of them
 #   make stubs   write again what is generated from the registries: stubs, README table, rule pages
@@ -66,9 +67,10 @@ $(VENV)/ready: pyproject.toml $(VENV)/records
 	$(DEVELOP) --profile $(PROFILE) --extras cli,test
 	touch $@
 
-fuzz:
+fuzz: build
 	FUZZ_SECONDS=$(FUZZ_SECONDS) FUZZ_SEED=$$(date +%s) cargo test --package forgetting --profile $(PROFILE) \
 	    --test fuzz --quiet -- --nocapture
+	FUZZ_SECONDS=$(FUZZ_SECONDS) FUZZ_SEED=$$(date +%s) $(BIN)/pytest -s tests/fuzz
 
 soak:
 	SOAK_STEPS=$(SOAK_STEPS) SOAK_FOLDER=$(SOAK_FOLDER) SOAK_ONLY=$(SOAK_ONLY) cargo test --package forgetting \

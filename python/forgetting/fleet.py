@@ -91,8 +91,11 @@ def from_arrow(table: Any) -> Fleet:
     pa = extra("pyarrow", "a saved fleet")
     if not isinstance(table, pa.Table):
         raise InvalidInput(f"table is of type {type(table).__name__}, allowed: a pyarrow.Table")
-    if "state" not in table.column_names:
-        raise InvalidInput(f"table has the columns {table.column_names}, but no column state")
+    names = table.column_names
+    if "state" not in names:
+        raise InvalidInput(f"table has the columns {names}, but no column state")
+    if names.count("state") > 1 or names.count("stream") > 1:
+        raise InvalidInput(f"table has the columns {names}, allowed: state and stream once each")
     states = table.column("state").to_pylist()
     kept = (table.schema.metadata or {}).get(FRESH)
     fresh = states[0] if kept is None and states else kept

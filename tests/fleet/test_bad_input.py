@@ -140,6 +140,8 @@ def test_tables_that_hold_no_fleet():
         (3, "table is of type int, allowed: a pyarrow.Table"),
         (pa.table({"theta": [1.0]}), "no column state"),
         (pa.table({"state": [1.0]}), "as bytes"),
+        (pa.Table.from_arrays([[state], [state]], ["state", "state"]), "once each"),
+        (pa.Table.from_arrays([[0], [1], [state]], ["stream", "stream", "state"]), "once each"),
         (pa.table({"state": pa.array([], pa.binary())}), "one stream or more"),
         (pa.table({"state": [state, state[:-1]]}), "stream 1: state: "),
         (pa.table({"state": [state, other]}), "the rule of its fleet"),

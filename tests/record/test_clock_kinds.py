@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import datetime
 import io
+import time
 
 import numpy as np
 import pandas as pd
@@ -12,6 +13,8 @@ import pytest
 from forgetting.record import RecordError, identify, read
 
 HOUR = 3600.0
+QUICK = 5.0
+"""Seconds; the cell without an end took more than a minute."""
 
 
 def clock_of(rows, name="stamp", **options):
@@ -217,3 +220,23 @@ def test_islands_shorter_than_a_lag_are_skipped(lag):
     expected = sum(max(k - lag, 0) for k in range(1, 6))
     assert identify(frame, formula=f"y ~ 0 + lag(u, {lag})").used == expected
     assert identify(frame, output="y", arx=(lag, 0, 0)).used == expected
+
+
+@pytest.mark.parametrize("last", ["2024-01-05 24:00", "5-Jan-2024 23:59"])
+def test_a_date_with_the_year_first_has_the_month_second(last):
+    clock = clock_of(["2024-01-05 23:00", last])
+    assert clock is not None and clock.values.iloc[0] == pd.Timestamp("2024-01-05 23:00")
+    assert 0 < clock.steps[0] <= HOUR
+
+
+@pytest.mark.parametrize("rows", [["2024-01-05", "x" * 200_000], ["9999-12-31 23:00", "24:00"]])
+def test_stamps_that_a_parser_does_not_survive(rows):
+    start = time.monotonic()
+    with pytest.raises(RecordError, match="holds no times") as caught:
+        clock_of(rows, time="stamp")
+    assert time.monotonic() - start < QUICK and len(str(caught.value)) < 300
+
+
+@pytest.mark.parametrize(("gap", "seconds"), [("99d", 99 * 86400), ("2 H", 7200), ("PT5M", 300)])
+def test_gaps_in_spellings_that_pandas_gives_up(gap, seconds):
+    assert clock_of(["10:00", "10:01"], gap=gap).gap == seconds

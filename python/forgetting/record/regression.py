@@ -109,7 +109,13 @@ def variables(factor: Factor) -> set[Variable]:
     """
     if factor.eval_method is not Factor.EvalMethod.PYTHON:
         return set(factor.required_variables)
-    return set(get_required_variables(factor.expr))
+    try:
+        return set(get_required_variables(factor.expr))
+    except Exception as error:
+        # It evaluates what is called: of 0.5.abs(x) the method of a number, which is none.
+        raise RecordError(
+            f"the term {shortened(str(factor.expr))} cannot be read: {plain(error)}"
+        ) from None
 
 
 def columns(factor: Factor, known: set[str]) -> set[str]:

@@ -15,7 +15,7 @@ from forgetting.record.clock.numeric import from_numbers, is_date
 from forgetting.record.clock.text import from_text
 from forgetting.record.clock.times import Times
 from forgetting.record.clock.units import is_named_time, sounds_like_time, unit_of
-from forgetting.record.columns import resolve
+from forgetting.record.columns import SHOWN, resolve
 from forgetting.record.formats.cells import is_time
 from forgetting.record.missing import is_text
 from forgetting.words.errors import RecordError
@@ -171,5 +171,5 @@ def example(column: pd.Series, name: str, units: Mapping[str, str]) -> str:
         return "it is empty"
     for row, cell in islice(enumerate(column, start=1), 10_000):
         if pd.notna(cell) and read(pd.Series([cell]), name, units) is None:
-            return f"row {row} is {cell!r}"
+            return f"row {row} is {str(cell)[:SHOWN]!r}"
     return "its cells do not share one format"

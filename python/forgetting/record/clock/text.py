@@ -19,6 +19,9 @@ ZONE = r"\s+\(?(?:UTC|GMT|[A-Z]{2,4}T|[A-Z]{3,4})\)?$"
 LOST = 0.1
 """Share of the stamps that may be unreadable; those rows have no time."""
 ORDER = r"^(\d{1,2})[-/. ](\d{1,2})[-/. ]\d{2,4}"
+YEAR_FIRST = r"^\d{4}[-/. ]\d{1,2}[-/. ]\d"
+LONGEST = 100
+"""Characters of a stamp or of a stretch of time; the time to parse one grows with their square."""
 
 
 def from_text(column: pd.Series) -> Times | None:
@@ -30,7 +33,7 @@ def from_text(column: pd.Series) -> Times | None:
     text = column.astype("string").str.strip()
     text = text.mask(text == "")
     known = text.dropna()
-    if known.empty:
+    if known.empty or known.str.len().max() > LONGEST:
         return None
     first = str(known.iloc[0])
     if SPAN.match(first):
@@ -81,6 +84,9 @@ def by_order(text: pd.Series) -> Times | None:
 
 def possible(text: pd.Series) -> tuple[tuple[bool, ...], bool]:
     """Whether the day may come first, in order of preference, and whether that is certain."""
+    if text.dropna().str.match(YEAR_FIRST).any():
+        # Nobody writes year, day, month; pandas reads it so where the day may come first.
+        return (False,), True
     parts = text.dropna().str.extract(ORDER).astype("float64").max()
     if parts[0] > 12:
         return (True,), True
@@ -102,7 +108,7 @@ def dates(text: pd.Series, day_first: bool) -> pd.Series | None:
     if parsed is None:
         return attempt(lambda: pd.to_datetime(text, dayfirst=day_first, format="mixed"))
     time = durations(pieces[1].fillna("0:00").mask(text.isna()))
-    return None if time is None else parsed + time
+    return None if time is None else attempt(lambda: parsed + time)
 
 
 def irregularity(times: pd.Series) -> int:

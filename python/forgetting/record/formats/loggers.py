@@ -62,8 +62,8 @@ def group_name(content: Any, index: int) -> str:
 def ulog(stream: BinaryIO, source: str, part: str | None) -> Table:
     """Read a topic of a ULog file by pyulog; its time stamps are microseconds."""
     library = extra("pyulog", "reading ULog", "ulog")
-    with on_disk(stream, ".ulg") as path:
-        content = opened(library.ULog, str(path), source, "ULog")
+    stream.seek(0)
+    content = opened(library.ULog, stream, source, "ULog")
     several = [topic.name for topic in content.data_list]
     topics = {
         topic.name if several.count(topic.name) == 1 else f"{topic.name}.{topic.multi_id}": topic
