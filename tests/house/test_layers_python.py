@@ -38,6 +38,7 @@ LAYERS: tuple[tuple[tuple[str, ...], str], ...] = (
     (("report",), "puts pictures on pages"),
     (("papers", "demo"), "use all of it on known data; neither needs the other"),
     (("cli",), "the command; nothing imports it"),
+    (("__main__",), "the command as a module"),
 )
 """Lowest first. A package may import those below it, and itself."""
 

@@ -1,12 +1,14 @@
-"""Two measured records, identified with three forgetting rules side by side.
+"""Records to see the package at work, identified with three forgetting rules side by side.
 
-The records come inside two packages on the Python package index; their files are found through the
-installed metadata, the packages themselves are never imported.
+That of the battery ships in this package. The two measured ones come inside two packages on the
+Python package index; their files are found through the installed metadata, the packages themselves
+are never imported.
 """
 
+from forgetting.demo.battery import battery
 from forgetting.demo.cycling import cycling
 from forgetting.demo.solar import solar
 
-DEMOS = {"solar": solar, "cycling": cycling}
+DEMOS = {"battery": battery, "solar": solar, "cycling": cycling}
 
-__all__ = ["DEMOS", "cycling", "solar"]
+__all__ = ["DEMOS", "battery", "cycling", "solar"]

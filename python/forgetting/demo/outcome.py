@@ -18,9 +18,12 @@ class Outcome:
     header : tuple of str
     rows : sequence of tuple of str
         One per rule.
+    next : sequence of str
+        Command lines to try next.
     """
 
     files: list[Path]
     title: str
     header: tuple[str, ...]
     rows: Sequence[tuple[str, ...]]
+    next: Sequence[str] = ()
