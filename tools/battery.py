@@ -4,7 +4,7 @@ A cell of 10 Ah is loaded in blocks as a vehicle would, rests twice, and its res
 half from begin to end:
 
     V = 3.2 + 0.9 s − R(t) I − w          s: charge, R from 30 to 45 mΩ
-    w₊ = 0.8 w + 0.2 · 0.012 I            what diffusion takes, time constant about 9 s
+    w₊ = 0.8 w + 0.2 · 0.004 I            what diffusion takes, time constant about 9 s
 
 with voltage to 1 mV and a noise of 2 mV. Some cells of the table are empty, one stretch of time was
 not logged. ``python tools/battery.py`` writes the file.
@@ -46,7 +46,7 @@ def signals() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     resistance = np.linspace(*RESISTANCE, ROWS)
     slow, warm = np.zeros(ROWS), np.full(ROWS, 21.0)
     for k in range(1, ROWS):
-        slow[k] = 0.8 * slow[k - 1] + 0.2 * 0.012 * current[k - 1]
+        slow[k] = 0.8 * slow[k - 1] + 0.2 * 0.004 * current[k - 1]
         heat = resistance[k] * current[k - 1] ** 2
         warm[k] = warm[k - 1] + STEP * (heat - 0.3 * (warm[k - 1] - 21.0)) / 60.0
     noise = random.normal(0.0, 0.002, ROWS)

@@ -147,7 +147,11 @@ def together(frame: pd.DataFrame, day: str, hour: str, units: Mapping[str, str])
     date_of, time_of = read(frame[day], day, units), read(frame[hour], hour, units)
     if date_of is None or time_of is None or not date_of.is_datetime or time_of.is_datetime:
         return None
-    joined = date_of.values + pd.to_timedelta(time_of.values * time_of.scale, unit="s")
+    try:
+        joined = date_of.values + pd.to_timedelta(time_of.values * time_of.scale, unit="s")
+    except (ValueError, OverflowError):
+        # Beyond the dates that pandas has.
+        return None
     return Times(joined, f"{date_of.kind}, and times of day")
 
 

@@ -153,6 +153,8 @@ def attempt(parse: Callable[[], Any]) -> pd.Series | None:
         with warnings.catch_warnings():
             # pandas only warns when it gives up one format and guesses cell by cell.
             warnings.simplefilter("error")
+            # Of this one it only tells, in a place from which no error comes back.
+            warnings.filterwarnings("ignore", "Parsing dates in")
             parsed = parse()
     except (ValueError, TypeError, OverflowError, AttributeError, Warning):
         return None
