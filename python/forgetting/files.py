@@ -10,6 +10,9 @@ from pathlib import Path
 
 from forgetting.words.errors import RecordError
 
+UNFINISHED: set[Path] = set()
+"""Temporary names of files that are being written."""
+
 
 @contextmanager
 def whole(path: str | Path) -> Iterator[Path]:
@@ -38,6 +41,7 @@ def whole(path: str | Path) -> Iterator[Path]:
         yield target
         return
     made = target.with_name(f".{target.stem[:100]}.{secrets.token_hex(4)}{target.suffix}")
+    UNFINISHED.add(made)
     try:
         yield made
         with made.open("rb+") as stream:
@@ -51,6 +55,15 @@ def whole(path: str | Path) -> Iterator[Path]:
         if isinstance(error, OSError) and str(error.filename) == str(made):
             error.filename = str(path)
         raise
+    finally:
+        UNFINISHED.discard(made)
+
+
+def remove_unfinished() -> None:
+    """Remove what `whole` has under way, before a process ends without its blocks ending."""
+    for path in tuple(UNFINISHED):
+        with suppress(OSError):
+            path.unlink(missing_ok=True)
 
 
 def write_text(path: str | Path, text: str) -> None:

@@ -13,6 +13,8 @@ NEEDED = ("typer", "rich", "pandas")
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command and return its exit code: 0, or 2 with one sentence on stderr.
 
+    Ctrl-C ends it with exit code 130, as a shell expects.
+
     Parameters
     ----------
     arguments : sequence of str, optional
@@ -24,6 +26,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         advice = "install it with pip install 'forgetting[cli]'"
         print(f"forgetting: the command needs {needs}; {advice}.", file=sys.stderr)
         return 2
-    from forgetting.cli.app import run
-
+    try:
+        from forgetting.cli.app import run
+    except KeyboardInterrupt:
+        print("forgetting: stopped.", file=sys.stderr)
+        return 130
     return run(list(sys.argv[1:] if arguments is None else arguments))

@@ -12,6 +12,7 @@ from forgetting.cli.compare import compare
 from forgetting.cli.demo import demo
 from forgetting.cli.fleet import fleet
 from forgetting.cli.identify import identify
+from forgetting.cli.interrupt import STOPPED, interruptible
 from forgetting.cli.reproduce import reproduce
 from forgetting.cli.rules import rules
 from forgetting.cli.stream import stream
@@ -58,10 +59,24 @@ def forgetting(
 
 
 def run(arguments: list[str]) -> int:
-    """Run a command line; whatever the user can cause ends as a sentence, never a traceback."""
+    """Run a command line; Ctrl-C ends it, whatever a library makes of that."""
     if not arguments:
         run(["--help"])
         return BAD
+    with interruptible() as interrupt:
+        try:
+            code = outcome(arguments)
+        except BaseException:
+            if not interrupt.pressed:
+                raise
+    if interrupt.pressed or code == STOPPED:
+        complain("stopped")
+        return STOPPED
+    return code
+
+
+def outcome(arguments: list[str]) -> int:
+    """Run a command; whatever the user can cause ends as a sentence, never a traceback."""
     try:
         code = app(args=arguments, standalone_mode=False, prog_name="forgetting")
         sys.stdout.flush()
@@ -78,7 +93,7 @@ def run(arguments: list[str]) -> int:
     except OSError as error:
         return complain(f"{error.filename}: {error.strerror}" if error.filename else str(error))
     except KeyboardInterrupt:
-        return complain("stopped")
+        return STOPPED
     except ImportError as error:
         return complain(advice(error))
     except Exception as error:
@@ -86,7 +101,7 @@ def run(arguments: list[str]) -> int:
         if hasattr(error, "format_message"):
             return complain(error.format_message())
         if type(error).__name__ == "Abort":
-            return complain("stopped")
+            return STOPPED
         raise
     return code if isinstance(code, int) else 0
 

@@ -28,6 +28,8 @@ from forgetting.words.errors import RecordError, first_line
 OLD = tuple(int(part) for part in pd.__version__.split(".")[:2]) < (3, 1)
 EXACT: dict[str, Any] = {"float_precision": "round_trip"} if OLD else {}
 """Before pandas 3.1 the default parser could be one bit off; a record must give the same bits."""
+STOPPED = "Calling read(nbytes) on source failed"
+"""What pandas says where Ctrl-C stops it; it gives errors of reading as they are."""
 WHERE = re.compile(r"Expected (\d+) fields in line (\d+), saw (\d+)")
 
 
@@ -156,6 +158,8 @@ def parsed(text: Text, form: Dialect, found: Layout, first: int, mark: str | Non
                 **EXACT,
             )
     except (pd.errors.ParserError, pd.errors.ParserWarning, pd.errors.EmptyDataError) as error:
+        if STOPPED in str(error):
+            raise KeyboardInterrupt from None
         raise unreadable(text, error, first) from None
     finally:
         handle.detach()
