@@ -54,7 +54,9 @@ def blocks(page: str) -> list[Block]:
         elif not line.strip():
             code = True
         elif line.startswith("    ") and code and not in_list:
-            found.append(Block("command", line.strip()))
+            begun = found and found[-1].text.endswith("\\")
+            before = found.pop().text[:-1] if begun else ""
+            found.append(Block("command", before + line.strip()))
         else:
             code = False
             in_list = line.startswith(("- ", "* ", "  ")) or line[:2].rstrip(".").isdigit()

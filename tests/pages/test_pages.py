@@ -8,9 +8,11 @@ from __future__ import annotations
 
 import contextlib
 import io
+import os
 import re
 import shlex
 import shutil
+import signal
 import subprocess
 import sys
 
@@ -21,10 +23,14 @@ from forgetting.demo.battery import RECORD
 
 from .pages import MARK, PAGES, ROOT, Block, blocks
 
-NOT_RUN: dict[str, list[str]] = {}
+NOT_RUN = {
+    "streams.md": ["forgetting stream /var/log", "mosquitto_sub", "kcat", "socat"],
+}
 """What is marked on the pages, by page and first words."""
-SHELL = ("cp", "cat", "gzip")
+SHELL = ("cp", "cat", "gzip", "grep")
 """Commands of the shell that a page may use."""
+ENDLESS = re.compile(r"--follow|tail .*-F")
+"""What runs until Ctrl-C."""
 WINDUP = 1
 """The exit code of `certify` where the covariance wound up."""
 
@@ -71,6 +77,10 @@ def run_command(line: str) -> None:
         assert re.search(rf"^{words[1]}:", (ROOT / "Makefile").read_text(), re.MULTILINE), line
     elif words[:2] == ["pip", "install"]:
         check_extras(words[2])
+    elif words[:2] == ["python", "-m"]:
+        assert (ROOT / (words[2].replace(".", "/") + ".py")).exists(), line
+    elif ENDLESS.search(line):
+        run_until_stopped(line)
     elif words[0] == "forgetting" and not {"|", ">", "&&"} & set(words):
         code = main(words[1:])
         assert code == 0 or (words[1] == "certify" and code == WINDUP), line
@@ -80,6 +90,19 @@ def run_command(line: str) -> None:
             ["bash", "-o", "pipefail", "-c", line], capture_output=True, text=True, timeout=120
         )
         assert (done.returncode, done.stderr) == (0, ""), line
+
+
+def run_until_stopped(line: str) -> None:
+    """Run a line that has no end until it has written something, then press Ctrl-C."""
+    with subprocess.Popen(
+        ["bash", "-c", line], stdout=subprocess.PIPE, text=True, start_new_session=True
+    ) as started:
+        assert started.stdout is not None
+        first = started.stdout.readline()
+        os.killpg(started.pid, signal.SIGINT)
+        assert first, line
+        started.stdout.read()
+        assert started.wait(60) in (0, 130, -signal.SIGINT), line
 
 
 def check_extras(package: str) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from contextlib import nullcontext
 
 import typer
 
@@ -12,7 +13,7 @@ from forgetting.cli.compare import compare
 from forgetting.cli.demo import demo
 from forgetting.cli.fleet import fleet
 from forgetting.cli.identify import identify
-from forgetting.cli.interrupt import STOPPED, interruptible
+from forgetting.cli.interrupt import STOPPED, Interrupt, interruptible
 from forgetting.cli.reproduce import reproduce
 from forgetting.cli.rules import rules
 from forgetting.cli.stream import stream
@@ -22,6 +23,9 @@ from forgetting.words.errors import RecordError
 
 BAD = 2
 """Exit code for bad use and bad data."""
+
+WITH_SIGNALS = ("stream",)
+"""Commands to which Ctrl-C says to save and stop, in their own time."""
 
 app = typer.Typer(
     name="forgetting",
@@ -63,7 +67,8 @@ def run(arguments: list[str]) -> int:
     if not arguments:
         run(["--help"])
         return BAD
-    with interruptible() as interrupt:
+    alone = arguments[0] in WITH_SIGNALS
+    with nullcontext(Interrupt()) if alone else interruptible() as interrupt:
         try:
             code = outcome(arguments)
         except BaseException:
