@@ -87,7 +87,7 @@ def test_overflow_of_a_rule_without_bound(forgetting, tmp_path):
         (("nonsense",), "nonsense"),
         (("--nonsense",), "--nonsense"),
         (("rules", "subspaces"), "no rule 'subspaces'; close are 'subspace'"),
-        (("demo", "lunar"), "no demo 'lunar'; choose solar, cycling or all"),
+        (("demo", "lunar"), "no demo 'lunar'; choose battery, solar, cycling or all"),
     ],
 )
 def test_bad_commands(forgetting, arguments, words):

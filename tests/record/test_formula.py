@@ -36,7 +36,7 @@ def record():
         "y ~ {a/}", "y ~ {'s'}", "y ~ ( ] \\", "y ~ `a", "y ~ 'x'", "y ~ \"", "~", "~~",
         "y ~ a ~ b", "", "y ~ a | b", "y ~ .", "y ~ {np}", "y ~ \x00", "y ~ {1/0}", "y ~ lag()",
         "y ~ lag(a, 'x')", "y ~ {-'a'}", "y ~ {a[a > 2]}", "y ~ {float('inf')}", "y ~ {min([])}",
-        "y ~ {1j * a}", "y ~ 0.5.abs(a)",
+        "y ~ {1j * a}", "y ~ 0.5.abs(a)", "y ~ {18**246}",
     ],
 )  # fmt: skip
 def test_malformed(record, formula):

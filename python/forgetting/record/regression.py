@@ -162,7 +162,7 @@ def as_floats(table: pd.DataFrame, formula: str) -> Array:
         if "c" in kinds:
             raise ValueError("a term is complex")
         return np.array(table.to_numpy(dtype=np.float64), order="C")
-    except (ValueError, TypeError) as error:
+    except (ValueError, TypeError, OverflowError) as error:
         raise RecordError(
             f"the formula {shortened(formula)} gives no numbers: {plain(error)}"
         ) from None
