@@ -1,7 +1,7 @@
 """The pages tell the truth: their Python and their commands run, in their order, as they stand.
 
 ``record.csv`` is the record that ships with the package, copied by the commands of the pages
-themselves, or put there where a page does not.
+themselves, or put there where a page does not; ``data`` is a folder of tables with devices.
 """
 
 from __future__ import annotations
@@ -16,6 +16,8 @@ import signal
 import subprocess
 import sys
 
+import numpy as np
+import pandas as pd
 import pytest
 
 from forgetting.cli import main
@@ -45,6 +47,9 @@ def folder(tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", str(command.parent), prepend=":")
     monkeypatch.chdir(tmp_path)
     shutil.copy(RECORD, tmp_path / "record.csv")
+    many = {"device": np.arange(400) % 4, "t": np.arange(400), "u": np.sin(np.arange(400.0))}
+    (tmp_path / "data").mkdir()
+    pd.DataFrame(many | {"y": 2 * many["u"]}).to_parquet(tmp_path / "data" / "day.parquet")
     return tmp_path
 
 
@@ -78,7 +83,7 @@ def run_command(line: str) -> None:
     elif words[:2] == ["pip", "install"]:
         check_extras(words[2])
     elif words[:2] == ["python", "-m"]:
-        assert (ROOT / (words[2].replace(".", "/") + ".py")).exists(), line
+        assert list(ROOT.glob(words[2].replace(".", "/") + "*")), line
     elif ENDLESS.search(line):
         run_until_stopped(line)
     elif words[0] == "forgetting" and not {"|", ">", "&&"} & set(words):

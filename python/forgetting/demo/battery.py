@@ -29,7 +29,7 @@ NEXT = (
     "forgetting identify {record} --show",
     "forgetting identify {record} --output V --input I --arx 1,2,0 --report out.html",
     "forgetting tune {record} --output V --input I",
-    'forgetting certify {record} --formula "V ~ I" --rule exponential',
+    "forgetting certify {record} --output V --input I --arx 1,2,0",
 )
 """What to try next."""
 
