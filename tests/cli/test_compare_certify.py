@@ -155,6 +155,9 @@ def test_a_gate_keeps_the_certificate_free_of_windup(record, capsys):
     command += ["--forgetting-factor", "0.95"]
     assert run([*command, "--gate", "minimum_information:information=1e-4"]) == 0
     assert run([*command, "--gate", "dead_zone:width=5,otherwise=freeze"]) == 0
+    # in units of y, where P is given
+    in_units = ["--initial-covariance", "100", "--gate", "dead_zone:width=0.5,otherwise=freeze"]
+    assert run([*command, *in_units]) == 0
     assert run([*command, "--gate", "open"]) == 1
     capsys.readouterr()
     for text, words in (

@@ -139,6 +139,21 @@ def test_no_gap_forgets_more_than_ten_half_lives():
     np.testing.assert_allclose(walk.covariance, 50 * np.eye(3), rtol=1e-9, atol=1e-9)
 
 
+@pytest.mark.parametrize("dtype", ["float64", "float32"])
+@pytest.mark.parametrize("schedule", ["every_sample", "cyclic"])
+@pytest.mark.parametrize("size", [3, 12])
+def test_a_bounded_walk_lives_through_any_gap(size, schedule, dtype):
+    random = np.random.default_rng(0)
+    for noise, bound in ((1e-7, 33.3), (0.003, 50.0), (0.003, 1e5), (0.3, 9.7), (7.7, 1e3)):
+        rule = fg.RandomWalk(noise, bound=bound, schedule=schedule)
+        est = fg.RLS(size, rule=rule, dtype=dtype, initial_covariance=bound / 2)
+        for _ in range(30):
+            elapsed = 10 ** random.uniform(-3, 9)
+            est.update(random.normal(size=size), random.normal(), elapsed=elapsed)
+            eigenvalues = np.linalg.eigvalsh(est.covariance.astype(float))
+            assert 0 < eigenvalues[0] and eigenvalues[-1] < 1.01 * bound
+
+
 def test_streams_of_a_fleet_have_times_of_their_own():
     phi, y, time = record()
     for rule in (fg.Exponential(0.9), fg.RandomWalk(0.01, bound=1e5), fg.Efra(0.9)):

@@ -3,17 +3,13 @@
 use crate::memory::state::{State, Visitor, MOST_SAMPLES};
 use crate::memory::Dynamic;
 use crate::mixers::{AnyMixer, AnyMixerState, Forecasts, Mixer};
-use crate::sample::{cholesky, Noise, NoiseVariance};
 use alloc::vec::Vec;
-use forgetting_kernels::kernel::functions::add_scaled;
 use forgetting_kernels::Kernels;
 
 /// Samples a parameter before members are weighed.
 const WARM_UP: u64 = 3;
 /// Samples over which the noise variance and the members' parts are averaged.
 const MEMORY: f64 = 1000.0;
-/// Standard deviations at which the errors of weighted members are clipped for the mixer.
-const CLIP: f64 = 3.0;
 
 /// w, and how the members have been doing.
 #[derive(Clone, Debug)]
@@ -25,23 +21,19 @@ pub(super) struct Mixture<T> {
     noise_variance: T,
     /// the same of each target, where there are several
     target_variances: Vec<T>,
-    /// of each target, where members trust some samples less than others: from what error on none tells
-    /// more of a member
-    clips: Vec<NoiseVariance<T>>,
     /// samples used
     samples: u64,
 }
 
 impl<T: Kernels> Mixture<T> {
     /// All alike.
-    pub fn new(count: usize, targets: usize, is_weighted: bool) -> Self {
+    pub fn new(count: usize, targets: usize) -> Self {
         let equal = T::ONE / T::from_f64(count as f64);
         Self {
             weights: alloc::vec![equal; count],
             parts: alloc::vec![T::ZERO; count],
             noise_variance: T::ZERO,
             target_variances: alloc::vec![T::ZERO; if targets > 1 { targets } else { 0 }],
-            clips: alloc::vec![NoiseVariance::UNKNOWN; if is_weighted { targets } else { 0 }],
             samples: 0,
         }
     }
@@ -117,7 +109,7 @@ impl<T: Kernels> Mixture<T> {
     }
 
     /// [`Mixture::mean`] of numbers that are computed, where some members are asleep.
-    fn mean_of(&self, number: &dyn Fn(usize) -> T, awake: &[bool]) -> T {
+    pub fn mean_of(&self, number: &dyn Fn(usize) -> T, awake: &[bool]) -> T {
         let those = || (0..awake.len()).filter(|&i| awake[i]);
         let believed = those().fold(T::ZERO, |sum, i| sum + self.weights[i]);
         let count = T::from_f64(those().count() as f64);
@@ -169,35 +161,6 @@ impl<T: Kernels> Mixture<T> {
             let errors = forecasts.mixed.iter().skip(t).step_by(targets);
             let squared = errors.fold(T::ZERO, |sum, &e| sum + e * e) * T::from_f64(targets as f64);
             *own += share * ((squared / variance).min(T::CEILING) - *own);
-        }
-    }
-
-    /// Clips the errors of all members at three standard deviations of what the mixture usually errs by,
-    /// where members are weighted: one gross error must not decide which of them is believed from then
-    /// on. The mixture of clipped errors takes the place of its own.
-    pub fn clip(
-        &mut self,
-        (errors, mixed): (&mut [T], &mut [T]),
-        awake: &[bool],
-        parameters: usize,
-    ) {
-        let (targets, width) = (self.clips.len(), mixed.len());
-        for t in 0..targets {
-            let rows = width / targets;
-            let own = (t..width).step_by(targets);
-            let squared = own.clone().fold(T::ZERO, |sum, j| sum + mixed[j] * mixed[j]);
-            if let Some(variance) = self.clips[t].known() {
-                let limit = T::from_f64(CLIP) * variance.sqrt();
-                for j in own {
-                    for e in errors.iter_mut().skip(j).step_by(width) {
-                        *e = e.max(-limit).min(limit);
-                    }
-                    mixed[j] = self.mean_of(&|i| errors[i * width + j], awake);
-                }
-            }
-            if NoiseVariance::<T>::is_settled(self.samples, parameters) {
-                self.clips[t].learn(squared / T::from_f64(rows as f64), rows, T::ZERO);
-            }
         }
     }
 
@@ -278,7 +241,6 @@ impl<T: Kernels> State<T> for Mixture<T> {
         visitor.reals(&mut self.parts);
         visitor.reals(core::slice::from_mut(&mut self.noise_variance));
         visitor.reals(&mut self.target_variances);
-        self.clips.iter_mut().for_each(|clip| clip.visit(visitor));
         visitor.whole(&mut self.samples);
     }
 
@@ -289,38 +251,5 @@ impl<T: Kernels> State<T> for Mixture<T> {
         numbers.into_iter().all(|x| *x >= T::ZERO && x.is_finite())
             && (sum - T::ONE).abs() <= T::from_f64(1e-3)
             && self.samples <= MOST_SAMPLES
-            && self.clips.iter().all(State::is_sound)
-    }
-}
-
-/// e ← Γ^(−1/2) e for p x m numbers e; `root` is a buffer of p x p numbers.
-pub(super) fn whiten<T: Kernels>(
-    errors: &mut [T],
-    targets: usize,
-    noise: Noise<'_, T>,
-    root: &mut [T],
-) {
-    match noise {
-        Noise::Unit => {}
-        Noise::Scalar(gamma) => {
-            let scale = T::ONE / gamma.sqrt();
-            errors.iter_mut().for_each(|e| *e *= scale);
-        }
-        Noise::Full(gamma) => {
-            let p = errors.len() / targets;
-            root.copy_from_slice(gamma);
-            // the members have already taken a sample with this Γ
-            if cholesky(root, p, "gamma").is_err() {
-                return;
-            }
-            for i in 0..p {
-                let (above, row) = errors.split_at_mut(i * targets);
-                let row = &mut row[..targets];
-                for (k, solved) in above.chunks_exact(targets).enumerate() {
-                    add_scaled(row, -root[i * p + k], solved);
-                }
-                row.iter_mut().for_each(|e| *e /= root[i * p + i]);
-            }
-        }
     }
 }

@@ -12,6 +12,7 @@
 //!
 //! A bank of one is that estimator, bit for bit.
 
+mod clip;
 mod group;
 mod many;
 mod members;
@@ -19,6 +20,7 @@ mod mixture;
 mod read;
 mod steps;
 mod together;
+mod whiten;
 
 pub use many::{BankOutcome, Kept};
 pub use members::{default_members, DEFAULT_NOISE};
@@ -31,6 +33,7 @@ use crate::sample::{Answer, Noise, Skip};
 use crate::units::Units;
 use crate::weightings::Weighting;
 use alloc::vec::Vec;
+use clip::Clip;
 use forgetting_kernels::Kernels;
 use group::Group;
 use mixture::Mixture;
@@ -73,6 +76,7 @@ struct BankState<T: Kernels> {
     members: Group<T>,
     mixer: AnyMixerState<Dynamic<T>>,
     mixture: Mixture<T>,
+    clip: Clip<T>,
     units: Option<Units<Dynamic<T>>>,
 }
 
@@ -162,7 +166,8 @@ impl<T: Kernels> Bank<T> {
         };
         let state = BankState {
             mixer: mixer.start(of_members),
-            mixture: Mixture::new(count, memory.targets(), is_weighted),
+            mixture: Mixture::new(count, memory.targets()),
+            clip: Clip::new(memory.targets(), is_weighted),
             units: follows_data.then(|| Units::new(memory)),
             members: Group::new(members),
         };
@@ -180,7 +185,8 @@ impl<T: Kernels> Bank<T> {
         if let Ok(of_members) = Dynamic::new(count, 1, 1) {
             state.mixer = mixer.start(of_members);
         }
-        state.mixture = Mixture::new(count, memory.targets(), *is_weighted);
+        state.mixture = Mixture::new(count, memory.targets());
+        state.clip = Clip::new(memory.targets(), *is_weighted);
         state.units = follows_data.then(|| Units::new(*memory));
         self.express();
     }

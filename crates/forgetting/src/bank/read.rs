@@ -158,6 +158,7 @@ impl<T: Kernels> Bank<T> {
         self.members().iter().all(AnyEstimator::is_sound)
             && state.mixer.is_sound()
             && state.mixture.is_sound()
+            && state.clip.is_sound()
             && state.units.as_ref().is_none_or(State::is_sound)
     }
 
@@ -171,6 +172,7 @@ impl<T: Kernels> Bank<T> {
     pub(crate) fn visit_own(&mut self, visitor: &mut dyn Visitor<T>) {
         self.state.mixer.visit(visitor);
         self.state.mixture.visit(visitor);
+        self.state.clip.visit(visitor);
         if let Some(units) = &mut self.state.units {
             units.visit(visitor);
         }

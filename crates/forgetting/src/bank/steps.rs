@@ -1,6 +1,7 @@
 //! What a bank does with one sample, step by step.
 
-use super::{mixture, Bank, BankState, Buffers};
+use super::whiten::whiten;
+use super::{Bank, BankState, Buffers};
 use crate::error::Error;
 use crate::estimator::AnyEstimator;
 use crate::memory::Memory;
@@ -91,23 +92,23 @@ impl<T: Kernels> Bank<T> {
         whitened.copy_from_slice(errors);
         mixed.copy_from_slice(error);
         for errors in whitened.chunks_exact_mut(error.len()).chain([mixed.as_mut_slice()]) {
-            mixture::whiten(errors, targets, noise, root.as_mut());
+            whiten(errors, targets, noise, root.as_mut());
         }
     }
 
     /// The mixer learns from a sample that was used, of which the mixture had this leverage.
     pub(super) fn learn(&mut self, leverage: Option<T>) {
         let Self { mixer, memory, state, buffers, .. } = self;
-        let (mixture, remembered) = (&mut state.mixture, (&*mixer, &mut state.mixer));
+        let BankState { mixture, clip, mixer: remembered, .. } = state;
         if let Some(leverage) = leverage {
             let Buffers { whitened, mixed, awake, .. } = buffers;
-            mixture.clip((whitened, mixed), awake, memory.parameters());
+            clip.clip(mixture, (whitened, mixed), awake, memory.parameters());
             mixture.note(&buffers.forecasts(), leverage);
             let Buffers { whitened, mixed, .. } = buffers;
             mixture.in_deviations(whitened, mixed);
         }
         let used = leverage.is_some().then(|| buffers.forecasts());
-        mixture.learn(remembered, memory.parameters(), used.as_ref());
+        mixture.learn((mixer, remembered), memory.parameters(), used.as_ref());
     }
 
     /// Renews the units if that is due, and takes note of θ.

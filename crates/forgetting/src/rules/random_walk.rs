@@ -51,7 +51,7 @@ use crate::choice::{
 use crate::covariance::Factor;
 use crate::rules::cycle::{self, Cycle};
 use crate::rules::root::Root;
-use crate::sample::{factor_after, Work};
+use crate::sample::Work;
 use crate::error::Error;
 use crate::memory::Memory;
 use crate::choice::guarantee::positive;
@@ -80,6 +80,9 @@ const BOUND: Parameter = Parameter {
 const SCHEDULE: Parameter = cycle::schedule(
     "when process_noise is added: all of it at each sample, or one direction a sample, in O(n^2)",
 );
+
+/// Of what a long gap leaves of P, in rounding units: several products are rounded on the way.
+const ROUNDING: f64 = 32.0;
 
 /// The registry entry.
 pub const ABOUT: About = About {
@@ -123,22 +126,33 @@ struct Turns<T> {
     scale: T,
     /// (1 − κʳ)/(1 − κ), r without a bound
     samples: T,
+    /// r
+    rank: f64,
+    /// 1 − κ, 0 without a bound
+    share: f64,
 }
 
 impl<T: Real> Turns<T> {
+    /// Of a cycle of r = `rank` turns, each `elapsed` after the one before.
+    #[inline]
+    fn new(rank: f64, share: f64, elapsed: f64) -> Self {
+        let passed = rank * elapsed;
+        if !(share > 0.0) {
+            return Self { scale: T::ONE, samples: T::from_f64(passed), rank, share };
+        }
+        let logarithm = passed * libm::log1p(-share);
+        let scale = T::from_f64(libm::exp(0.5 * logarithm)).max(T::EPSILON);
+        let samples = T::from_f64(-libm::expm1(logarithm) / share);
+        Self { scale, samples, rank, share }
+    }
+
     /// The same where so much time has passed since the last turn of the one before.
     #[inline]
     fn after(self, elapsed: T) -> Self {
         if elapsed == T::ONE {
             return self;
         }
-        let Self { scale, samples } = self;
-        if scale == T::ONE {
-            return Self { scale, samples: samples * elapsed };
-        }
-        let kept = factor_after(scale, elapsed);
-        let samples = samples * (T::ONE - kept * kept) / (T::ONE - scale * scale);
-        Self { scale: kept, samples }
+        Self::new(self.rank, self.share, elapsed.to_f64())
     }
 }
 
@@ -174,19 +188,14 @@ impl<M: Memory> RandomWalk<M> {
     pub fn cyclic(self) -> Result<Self, Error> {
         let rank = self.process_noise.rank() as f64;
         let Some(bound) = self.bound.map(Real::to_f64) else {
-            let turns = Turns { scale: M::Real::ONE, samples: M::Real::from_f64(rank) };
-            return Ok(Self { turns: Some(turns), ..self });
+            return Ok(Self { turns: Some(Turns::new(rank, 0.0, 1.0)), ..self });
         };
         if !self.process_noise.is_diagonal() {
             let allowed = "not given where a full process_noise is added in cycles";
             return Err(Error::value(BOUND.name, bound, allowed));
         }
         let share = self.largest.to_f64() / bound;
-        let logarithm = rank * libm::log1p(-share);
-        let samples = if share > 0.0 { -libm::expm1(logarithm) / share } else { rank };
-        let (scale, samples) = (libm::exp(0.5 * logarithm), M::Real::from_f64(samples));
-        let scale = M::Real::from_f64(scale).max(M::Real::EPSILON);
-        Ok(Self { turns: Some(Turns { scale, samples }), ..self })
+        Ok(Self { turns: Some(Turns::new(rank, share, 1.0)), ..self })
     }
 
     /// How many steps of Q are added in this time: Δt, and with a bound (1 − κ^Δt)/(1 − κ), so that
@@ -198,7 +207,9 @@ impl<M: Memory> RandomWalk<M> {
             return elapsed;
         }
         let kept = libm::exp(elapsed.to_f64() * libm::log1p(-share));
-        M::Real::from_f64((1.0 - kept.max(f64::EPSILON)) / share)
+        // so much that rounding cannot make what is left of P negative
+        let least = ROUNDING * M::Real::EPSILON.to_f64();
+        M::Real::from_f64((1.0 - kept.max(least)) / share)
     }
 
     /// P ← P + c·wᵀw for row `j` of the root.

@@ -1,0 +1,37 @@
+//! Errors of a sample in standard deviations of its noise.
+
+use crate::sample::{cholesky, Noise};
+use forgetting_kernels::kernel::functions::add_scaled;
+use forgetting_kernels::Kernels;
+
+/// e ← Γ^(−1/2) e for p x m numbers e; `root` is a buffer of p x p numbers.
+pub(super) fn whiten<T: Kernels>(
+    errors: &mut [T],
+    targets: usize,
+    noise: Noise<'_, T>,
+    root: &mut [T],
+) {
+    match noise {
+        Noise::Unit => {}
+        Noise::Scalar(gamma) => {
+            let scale = T::ONE / gamma.sqrt();
+            errors.iter_mut().for_each(|e| *e *= scale);
+        }
+        Noise::Full(gamma) => {
+            let p = errors.len() / targets;
+            root.copy_from_slice(gamma);
+            // the members have already taken a sample with this Γ
+            if cholesky(root, p, "gamma").is_err() {
+                return;
+            }
+            for i in 0..p {
+                let (above, row) = errors.split_at_mut(i * targets);
+                let row = &mut row[..targets];
+                for (k, solved) in above.chunks_exact(targets).enumerate() {
+                    add_scaled(row, -root[i * p + k], solved);
+                }
+                row.iter_mut().for_each(|e| *e /= root[i * p + i]);
+            }
+        }
+    }
+}
