@@ -151,7 +151,7 @@ def test_a_bounded_walk_lives_through_any_gap(size, schedule, dtype):
             elapsed = 10 ** random.uniform(-3, 9)
             est.update(random.normal(size=size), random.normal(), elapsed=elapsed)
             eigenvalues = np.linalg.eigvalsh(est.covariance.astype(float))
-            assert 0 < eigenvalues[0] and eigenvalues[-1] < 1.01 * bound
+            assert eigenvalues[0] > 0 and eigenvalues[-1] < 1.01 * bound
 
 
 def test_streams_of_a_fleet_have_times_of_their_own():
