@@ -29,13 +29,19 @@ from ._core import (
 from .fleet import FleetHealth
 from .health import Health
 from .meter import ExcitationMeter
-from .models import ARX
+from .models import AR, ARMA, ARMAX, ARX, BJ, FIR, OE
 from .registry import *  # noqa: F403 (the axes and their registries)
 from .tuning import Tuning, tune, tune_arx
 
 __all__ = [
+    "AR",
+    "ARMA",
+    "ARMAX",
     "ARX",
+    "BJ",
+    "FIR",
     "GATE",
+    "OE",
     "RLS",
     "SKIPPED",
     "Bank",

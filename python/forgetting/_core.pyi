@@ -24,11 +24,13 @@ __all__ = [
     "InvalidInput",
     "NumericalRange",
     "Run",
+    "SignalModel",
     "Update",
     "__version__",
     "axes",
     "bounds",
     "numbers",
+    "structures",
 ]
 
 __version__: str
@@ -371,3 +373,40 @@ def bounds(
     forgetting_factors: tuple[float, float],
     regressor_bound: float,
 ) -> tuple[float | None, float | None, bool]: ...
+
+@final
+class SignalModel:
+    def __new__(
+        cls,
+        *,
+        na: int = 0,
+        nc: int = 0,
+        nd: int = 0,
+        inputs: Sequence[tuple[int, int, int]] = (),
+        constant: bool = False,
+        method: str = "prediction_error",
+    ) -> SignalModel: ...
+    def learn(
+        self,
+        estimator: RLS | Bank,
+        u: ArrayLike,
+        y: ArrayLike,
+        outputs: str | Sequence[str] | None = None,
+    ) -> dict[str, Any]: ...
+    def predict(
+        self, u: ArrayLike, y: ArrayLike, *, from_rest: bool = True
+    ) -> NDArray[np.float64]: ...
+    def set_theta(self, theta: ArrayLike) -> None: ...
+    @property
+    def theta(self) -> NDArray[np.float64]: ...
+    @property
+    def parameters(self) -> int: ...
+    @property
+    def samples(self) -> int: ...
+    def to_bytes(self) -> bytes: ...
+    @classmethod
+    def from_bytes(cls, state: bytes) -> SignalModel: ...
+    def __copy__(self) -> SignalModel: ...
+    def __deepcopy__(self, memo: Any, /) -> SignalModel: ...
+
+def structures() -> dict[str, tuple[str, list[str], str]]: ...

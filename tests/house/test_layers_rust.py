@@ -27,6 +27,7 @@ LAYERS: dict[str, tuple[str, ...]] = {
         "covariance",  # P = U D Uᵀ
         "sample",  # what is learned from a sample, and what it brought
         "choice",  # parameters, registries
+        "models",  # what makes regressors of signals
         "rules rates weightings gates mixers",  # the choices; none needs another
         "monitor",  # windup, excitation, noise
         "estimator",  # one recursion
@@ -45,6 +46,7 @@ LAYERS: dict[str, tuple[str, ...]] = {
         "configure",  # from settings to an estimator
         "estimator bounds window",
         "fleet bank",
+        "model",  # what makes regressors of signals, with an estimator behind it
     ),
     # what only Python needs
     "forgetting-py": (
@@ -56,6 +58,7 @@ LAYERS: dict[str, tuple[str, ...]] = {
         "window",
         "rls",
         "fleet bank",
+        "model",
     ),
 }
 """Lowest first. A room may import those below it, and itself; rooms of one line are level."""

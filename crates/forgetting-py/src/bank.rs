@@ -56,7 +56,7 @@ use pyo3::types::{PyBytes, PyDict, PyType};
 /// array([3. , 0.5])
 #[pyclass(frozen, module = "forgetting")]
 pub struct Bank {
-    bank: Shared<Inner>,
+    pub(crate) bank: Shared<Inner>,
     /// n, p and m
     sizes: [usize; 3],
     number_type: NumberType,

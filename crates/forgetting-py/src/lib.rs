@@ -8,6 +8,7 @@ mod callable;
 mod choice;
 mod errors;
 mod fleet;
+mod model;
 mod pickle;
 mod registry;
 mod rls;
@@ -31,12 +32,14 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<callable::Evidence>()?;
     module.add_class::<window::InformationWindow>()?;
     module.add_class::<run::Run>()?;
+    module.add_class::<model::SignalModel>()?;
     module.add("InvalidInput", module.py().get_type::<errors::InvalidInput>())?;
     module.add("NumericalRange", module.py().get_type::<errors::NumericalRange>())?;
     module.add("SKIPPED", registry::skip_codes(module.py())?)?;
     module.add("GATE", registry::gate_codes(module.py())?)?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_function(wrap_pyfunction!(arrays::numbers, module)?)?;
+    module.add_function(wrap_pyfunction!(model::structures, module)?)?;
     module.add_function(wrap_pyfunction!(registry::axes, module)?)?;
     module.add_function(wrap_pyfunction!(registry::bounds, module)?)
 }

@@ -71,7 +71,7 @@ use pyo3::types::{PyBytes, PyDict, PyType};
 /// interpreter. Only a function that an estimator itself calls cannot use it.
 #[pyclass(frozen, name = "RLS", module = "forgetting")]
 pub struct Rls {
-    estimator: Shared<Estimator>,
+    pub(crate) estimator: Shared<Estimator>,
     /// n, p and m
     sizes: [usize; 3],
     number_type: NumberType,

@@ -30,6 +30,8 @@ pub mod fleet;
 pub mod gates;
 pub mod memory;
 pub mod mixers;
+#[cfg(feature = "alloc")]
+pub mod models;
 pub mod monitor;
 pub mod rates;
 pub mod rules;

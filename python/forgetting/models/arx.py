@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from forgetting.models.channels import channel_names, channels, paired
 from forgetting.models.constructor import Constructor
 from forgetting.models.estimator import new_estimator
 from forgetting.models.lags import names, regressors
-from forgetting.models.orders import Orders
+from forgetting.models.orders import Orders, OrdersByInput, per_input
 from forgetting.models.simulation import free_run
 
 Array = NDArray[np.float64]
@@ -34,10 +35,16 @@ class ARX(Constructor):
     Parameters
     ----------
     na, nb, nk : int
-        Orders: past outputs, inputs, and delay of the newest input in samples; all >= 0.
+        Orders: past outputs, inputs, and delay of the newest input in samples; all >= 0. nb and nk
+        may be sequences, with an order for each input.
+    offset : bool, default False
+        Whether there is a constant, the last parameter: for data that are not deviations from an
+        operating point.
     rule : str or Rule
         Forgetting rule, by registry name or as an object such as ``fg.Subspace(0.98)``; "auto"
         mixes rules of all speeds, see `forgetting.Bank`.
+    weighting, gate : optional
+        As those of `RLS`.
     initial_covariance : float or array_like, optional
         P before the first sample: a scalar, the (n,) diagonal, or (n, n); in units of 1/phi². If
         not given it follows the data, and units do not matter.
@@ -76,11 +83,15 @@ class ARX(Constructor):
     def __init__(
         self,
         na: int = 1,
-        nb: int = 2,
-        nk: int = 0,
+        nb: int | Sequence[int] = 2,
+        nk: int | Sequence[int] = 0,
         rule: Any = "auto",
         initial_covariance: ArrayLike | None = None,
         dtype: str = "float64",
+        *,
+        offset: bool = False,
+        weighting: Any = None,
+        gate: Any = None,
     ) -> None:
         self.na = na
         self.nb = nb
@@ -88,6 +99,9 @@ class ARX(Constructor):
         self.rule = rule
         self.initial_covariance = initial_covariance
         self.dtype = dtype
+        self.offset = offset
+        self.weighting = weighting
+        self.gate = gate
 
     def fit(self, u: ArrayLike | None, y: ArrayLike) -> ARX:
         """Forget everything and identify from a whole record.
@@ -113,16 +127,23 @@ class ARX(Constructor):
         inputs, outputs = paired(u, y)
         orders = self._orders(inputs)
         estimator = new_estimator(
-            orders.regressors(outputs.shape[1], inputs.shape[1]),
+            orders.regressors(outputs.shape[1], inputs.shape[1]) + self.offset,
             self.rule,
             targets=outputs.shape[1],
+            weighting=self.weighting,
+            gate=self.gate,
             initial_covariance=self.initial_covariance,
             dtype=self.dtype,
         )
         used = self._learn(estimator, orders, inputs, outputs)
         self.n_inputs_, self.n_outputs_ = inputs.shape[1], outputs.shape[1]
-        self.names_ = names(
-            channel_names("y", y, outputs.shape[1]), channel_names("u", u, inputs.shape[1]), orders
+        self.names_ = (
+            names(
+                channel_names("y", y, outputs.shape[1]),
+                channel_names("u", u, inputs.shape[1]),
+                orders,
+            )
+            + ["offset"] * self.offset
         )
         self._single = np.ndim(y) == 1
         self._remember(orders, inputs, outputs)
@@ -153,7 +174,7 @@ class ARX(Constructor):
         missing, so always in the first `Orders.reach` rows.
         """
         inputs, outputs = self._checked(u, y)
-        predicted = regressors(inputs, outputs, self._orders(inputs)) @ self._theta()
+        predicted = self._phi(inputs, outputs, self._orders(inputs)) @ self._theta()
         return shaped_like(read("y", y), predicted[:, 0] if np.ndim(y) == 1 else predicted)
 
     def simulate(self, u: ArrayLike | int, y_start: ArrayLike | None = None) -> Array:
@@ -176,20 +197,28 @@ class ARX(Constructor):
         inputs = np.empty((u, 0)) if isinstance(u, int) else channels("u", u)
         start = np.empty((0, self.n_outputs_)) if y_start is None else channels("y_start", y_start)
         self._match(inputs, start)
-        simulated = free_run(inputs, start, self._theta(), self._orders(inputs))
+        theta = self._theta()
+        constant = theta[-1] if self.offset else 0.0
+        coefficients = theta[: len(theta) - self.offset]
+        simulated = free_run(inputs, start, coefficients, self._orders(inputs), constant)
         return simulated[:, 0] if self._single else simulated
 
-    def _orders(self, inputs: Array) -> Orders:
-        orders = Orders(self.na, self.nb, self.nk)
-        if (orders.nb > 0) != (inputs.shape[1] > 0):
+    def _orders(self, inputs: Array) -> Orders | OrdersByInput:
+        orders = orders_of(self.na, self.nb, self.nk, inputs.shape[1])
+        if (orders.nb != 0) != (inputs.shape[1] > 0):
             given = f"{inputs.shape[1]} input(s)"
             raise InvalidInput(f"nb is {orders.nb} but u has {given}; nb = 0 goes with u = None")
         return orders
 
     def _learn(
-        self, estimator: Any, orders: Orders, inputs: Array, outputs: Array, skip: int = 0
+        self,
+        estimator: Any,
+        orders: Orders | OrdersByInput,
+        inputs: Array,
+        outputs: Array,
+        skip: int = 0,
     ) -> int:
-        phi = regressors(inputs, outputs, orders)[skip:]
+        phi = self._phi(inputs, outputs, orders)[skip:]
         target = outputs[skip:, 0] if outputs.shape[1] == 1 else outputs[skip:]
         dtype = np.dtype(self.dtype)
         phi, target = phi.astype(dtype, copy=False), target.astype(dtype, copy=False)
@@ -198,7 +227,11 @@ class ARX(Constructor):
         self.estimator_ = estimator
         return used
 
-    def _remember(self, orders: Orders, inputs: Array, outputs: Array) -> None:
+    def _phi(self, inputs: Array, outputs: Array, orders: Orders | OrdersByInput) -> Array:
+        phi = regressors(inputs, outputs, orders)
+        return np.hstack([phi, np.ones((len(phi), 1))]) if self.offset else phi
+
+    def _remember(self, orders: Orders | OrdersByInput, inputs: Array, outputs: Array) -> None:
         start = max(0, len(outputs) - orders.reach)
         self._tail = inputs[start:].copy(), outputs[start:].copy()
 
@@ -238,3 +271,12 @@ class ARX(Constructor):
         if not hasattr(self, "estimator_"):
             raise AttributeError(f"{name} exists after fit or partial_fit")
         return self.estimator_
+
+
+def orders_of(
+    na: int, nb: int | Sequence[int], nk: int | Sequence[int], inputs: int
+) -> Orders | OrdersByInput:
+    """The orders of a model of so many inputs, the same for all of them or not."""
+    if not isinstance(nb, Sequence) and not isinstance(nk, Sequence):
+        return Orders(na, nb, nk)
+    return OrdersByInput(na, per_input("nb", nb, inputs), per_input("nk", nk, inputs))

@@ -8,6 +8,7 @@ literature often has the output lags negated (equations (1)-(2) of Zhu, Yu and W
 polynomial A(q) = 1 + a1 q^-1 + ...; those are these with the other sign.
 
 With several outputs (inputs) every y (u) above is the block of all outputs (inputs), in order.
+Where inputs have orders of their own, those that have no such lag are left out of a block.
 """
 
 from __future__ import annotations
@@ -17,12 +18,12 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from forgetting.models.orders import Orders
+from forgetting.models.orders import Orders, OrdersByInput
 
 Array = NDArray[np.float64]
 
 
-def regressors(u: Array, y: Array, orders: Orders) -> Array:
+def regressors(u: Array, y: Array, orders: Orders | OrdersByInput) -> Array:
     """Build every regressor of a record without gaps in time.
 
     Parameters
@@ -49,7 +50,7 @@ def regressors(u: Array, y: Array, orders: Orders) -> Array:
            [20.,  3.,  2.]])
     """
     blocks = [delayed(y, lag) for lag in range(1, orders.na + 1)]
-    blocks += [delayed(u, lag) for lag in range(orders.nk, orders.nk + orders.nb)]
+    blocks += [delayed(u[:, [own]], lag) for lag, own in orders.input_lags(u.shape[1])]
     return np.ascontiguousarray(np.hstack(blocks))
 
 
@@ -60,7 +61,9 @@ def delayed(signal: Array, lag: int) -> Array:
     return shifted
 
 
-def names(outputs: Sequence[str], inputs: Sequence[str], orders: Orders) -> list[str]:
+def names(
+    outputs: Sequence[str], inputs: Sequence[str], orders: Orders | OrdersByInput
+) -> list[str]:
     """Name each column of `regressors`.
 
     Examples
@@ -69,5 +72,5 @@ def names(outputs: Sequence[str], inputs: Sequence[str], orders: Orders) -> list
     ['V(k-1)', 'I(k)', 'I(k-1)']
     """
     past = [f"{y}(k-{lag})" for lag in range(1, orders.na + 1) for y in outputs]
-    delays = range(orders.nk, orders.nk + orders.nb)
-    return past + [f"{u}(k-{lag})" if lag else f"{u}(k)" for lag in delays for u in inputs]
+    lags = orders.input_lags(len(inputs))
+    return past + [f"{inputs[u]}(k-{lag})" if lag else f"{inputs[u]}(k)" for lag, u in lags]

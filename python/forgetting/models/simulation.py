@@ -14,12 +14,18 @@ from numpy.typing import NDArray
 from forgetting._core import InvalidInput
 from forgetting.extras import extra
 from forgetting.models.lags import regressors
-from forgetting.models.orders import Orders
+from forgetting.models.orders import Orders, OrdersByInput
 
 Array = NDArray[np.float64]
 
 
-def free_run(u: Array, start: Array, theta: Array, orders: Orders) -> Array:
+def free_run(
+    u: Array,
+    start: Array,
+    theta: Array,
+    orders: Orders | OrdersByInput,
+    offset: Array | float = 0.0,
+) -> Array:
     """Simulate y(k) = phi(k) theta with simulated outputs in the lags.
 
     Parameters
@@ -32,6 +38,8 @@ def free_run(u: Array, start: Array, theta: Array, orders: Orders) -> Array:
         Coefficients in the order of `forgetting.models.lags.regressors`.
     orders : Orders
         Orders na, nb, nk.
+    offset : ndarray, shape (outputs,), optional
+        The constant of each output.
 
     Raises
     ------
@@ -43,7 +51,7 @@ def free_run(u: Array, start: Array, theta: Array, orders: Orders) -> Array:
     blas = extra("scipy.linalg.blas", "a free run")
     check(u, start)
     outputs = theta.shape[1]
-    right = forced(u, theta, orders)
+    right = forced(u, theta, orders) + offset
     right[: len(start)] = start
     if not right.size:
         return right
@@ -63,7 +71,7 @@ def check(u: Array, start: Array) -> None:
         raise InvalidInput(f"y_start has {len(start)} rows, more than the {len(u)} of u")
 
 
-def forced(u: Array, theta: Array, orders: Orders) -> Array:
+def forced(u: Array, theta: Array, orders: Orders | OrdersByInput) -> Array:
     """What the inputs bring, (T, outputs); before row 0 they are zero."""
     past_outputs = orders.na * theta.shape[1]
     inputs = regressors(u, np.empty((len(u), 0)), orders)

@@ -19,7 +19,7 @@ use forgetting::saved::bank_number_type;
 use forgetting::{Memory, Noise, Real, Skip};
 
 /// Banks, with the number type left open.
-struct Banks;
+pub(crate) struct Banks;
 
 impl Family for Banks {
     type Of<T: Number> = bank::Bank<T>;
@@ -29,7 +29,7 @@ impl Family for Banks {
 /// beforehand.
 #[derive(Clone)]
 pub struct Bank {
-    typed: ByType<Banks>,
+    pub(crate) typed: ByType<Banks>,
 }
 
 /// What a bank reports of one sample.

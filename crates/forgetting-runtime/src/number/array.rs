@@ -2,6 +2,7 @@
 
 use super::NumberType;
 use crate::error::Error;
+use std::borrow::Cow;
 
 /// Numbers of an interface, of either type. Those of another type than the estimator's are
 /// converted, which takes a copy.
@@ -13,7 +14,7 @@ pub enum Numbers<'a> {
     F32(&'a [f32]),
 }
 
-impl Numbers<'_> {
+impl<'a> Numbers<'a> {
     /// How many there are.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -27,6 +28,14 @@ impl Numbers<'_> {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
+    }
+
+    /// In 64 bits.
+    pub(crate) fn to_f64(self) -> Cow<'a, [f64]> {
+        match self {
+            Self::F64(numbers) => Cow::Borrowed(numbers),
+            Self::F32(numbers) => numbers.iter().map(|&x| f64::from(x)).collect(),
+        }
     }
 
     /// Their type.

@@ -31,6 +31,7 @@ use forgetting_kernels::Kernels;
 use forgetting_kernels::Real;
 
 mod bank;
+mod model;
 mod read;
 mod write;
 

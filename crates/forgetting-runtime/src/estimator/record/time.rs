@@ -2,7 +2,7 @@
 
 use super::shapes::Sizes;
 use crate::error::Error;
-use crate::number::{Numbers, View};
+use crate::number::View;
 use crate::shape::either;
 use forgetting::Real;
 use std::borrow::Cow;
@@ -30,10 +30,7 @@ impl<'a> RecordTime<'a> {
                 return Err(Error::shape("time", time.shape(), allowed));
             }
         };
-        let times = match time.numbers() {
-            Numbers::F64(times) => Cow::Borrowed(times),
-            Numbers::F32(times) => times.iter().map(|&t| f64::from(t)).collect(),
-        };
+        let times = time.numbers().to_f64();
         let last = (first == 1).then(|| times[0]);
         Ok(Self { times, last, first })
     }

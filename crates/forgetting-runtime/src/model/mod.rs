@@ -1,0 +1,117 @@
+//! A model whose regressor needs what it has made of earlier samples, with the estimator behind it.
+
+mod learn;
+
+pub use learn::{Learner, MODEL_OUTPUTS};
+
+use crate::error::{check_shape, Error};
+use crate::estimator::{GoOn, Run};
+use crate::number::{Array, Elements, View};
+use forgetting::models::{Method, Orders, Polynomial};
+
+/// What makes regressors of signals, see [`Polynomial`]; in `f64` whatever the estimator computes in.
+#[derive(Clone, Debug)]
+pub struct Model {
+    polynomial: Polynomial,
+}
+
+impl Model {
+    /// At rest. `method` is "prediction_error" or "extended_least_squares".
+    ///
+    /// # Errors
+    /// [`Error`] names the order or the method.
+    pub fn new(orders: Orders, method: &str) -> Result<Self, Error> {
+        let method = match method {
+            "prediction_error" => Method::PredictionError,
+            "extended_least_squares" => Method::ExtendedLeastSquares,
+            _ => {
+                let allowed = ["prediction_error", "extended_least_squares"];
+                return Err(Error::word("method", method, &allowed));
+            }
+        };
+        Ok(Self { polynomial: Polynomial::new(orders, method)? })
+    }
+
+    /// The model that [`Model::to_bytes`] saved, bit for bit.
+    ///
+    /// # Errors
+    /// [`Error::Core`] says what is wrong with the bytes.
+    pub fn from_bytes(state: &[u8]) -> Result<Self, Error> {
+        Ok(Self { polynomial: Polynomial::from_bytes(state)? })
+    }
+
+    /// The model, orders and state, as bytes: portable, versioned and checked.
+    #[must_use]
+    pub fn to_bytes(&self) -> Vec<u8> {
+        self.polynomial.to_bytes()
+    }
+
+    /// Takes a record of T samples: `inputs` (T, inputs), `y` (T,), NaN for what is missing, through
+    /// `learner`, and returns those of [`MODEL_OUTPUTS`] that are named.
+    ///
+    /// # Errors
+    /// [`Error`] names the argument or the sample that does not fit; nothing has changed.
+    pub fn learn(
+        &mut self,
+        learner: Learner<'_>,
+        (inputs, y): (View<'_>, View<'_>),
+        outputs: &[&str],
+        go_on: GoOn<'_>,
+    ) -> Result<Run, Error> {
+        let before = self.polynomial.clone();
+        let learned = learn::learn(&mut self.polynomial, learner, (inputs, y), outputs, go_on);
+        learned.inspect_err(|_| self.polynomial = before)
+    }
+
+    /// Predicts each y of a record one sample ahead, with θ as it is: from rest, or going on from the
+    /// last sample. Where y is missing, its prediction stands for it: without any y this is a free run.
+    ///
+    /// # Errors
+    /// [`Error`] names the argument or the sample that does not fit.
+    pub fn predict(
+        &self,
+        (inputs, y): (View<'_>, View<'_>),
+        from_rest: bool,
+    ) -> Result<Array, Error> {
+        let mut model = self.polynomial.clone();
+        if from_rest {
+            model.rest();
+        }
+        let prediction = learn::predict(&mut model, (inputs, y))?;
+        Ok(Array { shape: vec![prediction.len()], elements: Elements::F64(prediction) })
+    }
+
+    /// Goes to this θ (n,), or as far as C and F are stable.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] or [`Error::Core`] names `theta`.
+    pub fn set_theta(&mut self, theta: View<'_>) -> Result<(), Error> {
+        check_shape("theta", theta.shape(), &[self.orders().parameters()])?;
+        let theta = theta.numbers().to_f64();
+        if let Some(i) = theta.iter().position(|x| !x.is_finite()) {
+            return Err(forgetting::Error::value("theta", theta[i], "finite").at(i).into());
+        }
+        self.polynomial.set_theta(&theta);
+        Ok(())
+    }
+
+    /// Its orders.
+    #[must_use]
+    pub fn orders(&self) -> &Orders {
+        self.polynomial.orders()
+    }
+
+    /// θ (n,): that of the estimator, or as far on the way there as C and F are stable.
+    #[must_use]
+    pub fn theta(&self) -> Array {
+        let mut theta = self.polynomial.theta().to_vec();
+        self.polynomial.express(&mut theta);
+        Array { shape: vec![theta.len()], elements: Elements::F64(theta) }
+    }
+
+    /// Samples so far.
+    #[must_use]
+    pub fn samples(&self) -> u64 {
+        self.polynomial.samples()
+    }
+}

@@ -1,0 +1,71 @@
+//! A model as bytes.
+//!
+//! | part | content |
+//! |---|---|
+//! | mark | `FGMOD` |
+//! | version | one byte |
+//! | method | one byte: 0 for prediction errors, 1 for extended least squares |
+//! | constant | one byte, 0 or 1 |
+//! | orders | na, nc, nd and the number of inputs; nb, nf, nk of each; 16 bits each |
+//! | numbers | of the state, in the order of `visit` |
+//! | check | CRC-32 of all before it |
+
+use super::read::Reader;
+use super::write::Numbers;
+use super::{crc32, unaltered, Error, Vec};
+use crate::models::{InputOrders, Method, Orders, Polynomial};
+
+const MARK: &[u8; 5] = b"FGMOD";
+const VERSION: u8 = 1;
+
+impl Polynomial {
+    /// The model, orders and state, as bytes.
+    #[must_use]
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let mut bytes = Vec::from(MARK.as_slice());
+        let (orders, method) = (self.orders(), self.method() as u8);
+        bytes.extend_from_slice(&[VERSION, method, u8::from(orders.constant)]);
+        let mut put = |order: usize| bytes.extend_from_slice(&(order as u16).to_le_bytes());
+        [orders.na, orders.nc, orders.nd, orders.inputs.len()].into_iter().for_each(&mut put);
+        for input in &orders.inputs {
+            [input.nb, input.nf, input.nk].into_iter().for_each(&mut put);
+        }
+        self.clone().visit(&mut Numbers(&mut bytes));
+        let check = crc32(&bytes);
+        bytes.extend_from_slice(&check.to_le_bytes());
+        bytes
+    }
+
+    /// The model that [`Polynomial::to_bytes`] saved, bit for bit.
+    ///
+    /// # Errors
+    /// [`Error::State`] says what is wrong with the bytes.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
+        if !bytes.starts_with(MARK) {
+            return Err(Error::State { reason: "it is not a saved model" });
+        }
+        let mut reader = Reader::new(&unaltered(bytes, VERSION)?[MARK.len() + 1..]);
+        let (method, constant) = (method(reader.byte()?)?, reader.byte()? == 1);
+        let (na, nc, nd) = (reader.count()?, reader.count()?, reader.count()?);
+        let mut orders = Orders { na, nc, nd, inputs: Vec::new(), constant };
+        for _ in 0..reader.count()? {
+            let (nb, nf, nk) = (reader.count()?, reader.count()?, reader.count()?);
+            orders.inputs.push(InputOrders { nb, nf, nk });
+        }
+        let mut model = Self::new(orders, method)?;
+        model.visit(&mut reader);
+        reader.finish()?;
+        match model.is_sound() {
+            true => Ok(model),
+            false => Err(Error::State { reason: "its numbers are not those of a model" }),
+        }
+    }
+}
+
+fn method(byte: u8) -> Result<Method, Error> {
+    match byte {
+        0 => Ok(Method::PredictionError),
+        1 => Ok(Method::ExtendedLeastSquares),
+        _ => Err(Error::State { reason: "its method is not known" }),
+    }
+}
