@@ -20,11 +20,13 @@ from ._core import (
     Evidence,
     Fleet,
     FleetUpdate,
+    Intervals,
     InvalidInput,
     NumericalRange,
     Run,
     Update,
     __version__,
+    bounded,
 )
 from .fleet import FleetHealth
 from .health import Health
@@ -52,12 +54,14 @@ __all__ = [
     "FleetHealth",
     "FleetUpdate",
     "Health",
+    "Intervals",
     "InvalidInput",
     "NumericalRange",
     "Run",
     "Tuning",
     "Update",
     "__version__",
+    "bounded",
     "tune",
     "tune_arx",
 ]

@@ -22,6 +22,7 @@ LAYERS: dict[str, tuple[str, ...]] = {
     "forgetting-cpu": ("level", "fused", "x86"),
     "forgetting": (
         "error",  # what can be refused
+        "intervals",  # about predictions, from their errors alone
         "memory",  # where numbers are kept, and how they are saved
         "units",  # what regressors are measured in
         "covariance",  # P = U D Uᵀ
@@ -56,6 +57,7 @@ LAYERS: dict[str, tuple[str, ...]] = {
         "choice",
         "settings registry run update bank_update shared time",
         "window",
+        "intervals",
         "rls",
         "fleet bank",
         "model",

@@ -8,6 +8,7 @@ mod callable;
 mod choice;
 mod errors;
 mod fleet;
+mod intervals;
 mod model;
 mod pickle;
 mod registry;
@@ -33,6 +34,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<window::InformationWindow>()?;
     module.add_class::<run::Run>()?;
     module.add_class::<model::SignalModel>()?;
+    module.add_class::<intervals::Intervals>()?;
+    module.add_function(wrap_pyfunction!(intervals::bounded, module)?)?;
     module.add("InvalidInput", module.py().get_type::<errors::InvalidInput>())?;
     module.add("NumericalRange", module.py().get_type::<errors::NumericalRange>())?;
     module.add("SKIPPED", registry::skip_codes(module.py())?)?;

@@ -152,6 +152,23 @@ impl Rls {
         output(py, self.estimator.lock(py)?.theta())
     }
 
+    #[setter]
+    fn set_theta(&self, theta: &Bound<'_, PyAny>) -> PyResult<()> {
+        let input = self.input("theta", theta)?;
+        self.estimator.lock(theta.py())?.set_theta(input.view("theta")?).map_err(raise)
+    }
+
+    /// The constant forgetting factor; None where a rate chooses it, or the rule uses none.
+    #[getter]
+    fn forgetting_factor(&self, py: Python<'_>) -> PyResult<Option<f64>> {
+        Ok(self.estimator.lock(py)?.forgetting_factor())
+    }
+
+    #[setter]
+    fn set_forgetting_factor(&self, py: Python<'_>, factor: f64) -> PyResult<()> {
+        self.estimator.lock(py)?.set_forgetting_factor(factor).map_err(raise)
+    }
+
     /// The covariance P, (n, n), in units of 1/phi**2: times the noise variance, it is that of
     /// the estimate.
     #[getter]

@@ -48,6 +48,7 @@ pub use estimator::{Estimator, GoOn, Health, Run, RunOptions};
 pub use fleet::{Fleet, FleetUpdate, StreamHealth};
 pub use forgetting::choice::function::Argument;
 pub use forgetting::models::{InputOrders, Orders, Structure, STRUCTURES};
+pub use forgetting::{bounded, Intervals};
 pub use forgetting::{Answer, Error as CoreError, Skip};
 pub use function::{Evidence, Function};
 pub use missing::Missing;

@@ -55,7 +55,8 @@ impl ForgettingFactor {
     }
 }
 
-fn uses_factor(rule: &str) -> bool {
+/// Whether the rule of this name uses a forgetting factor.
+pub(crate) fn uses_factor(rule: &str) -> bool {
     RULES.iter().any(|about| about.name == rule && about.forgetting_factor)
 }
 

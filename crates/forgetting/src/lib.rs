@@ -28,6 +28,7 @@ mod estimator;
 #[cfg(feature = "alloc")]
 pub mod fleet;
 pub mod gates;
+mod intervals;
 pub mod memory;
 pub mod mixers;
 #[cfg(feature = "alloc")]
@@ -44,6 +45,8 @@ mod testing;
 mod units;
 pub mod weightings;
 
+#[cfg(feature = "alloc")]
+pub use covariance::bounded;
 pub use covariance::{Factor, Prior, DIFFUSE};
 pub use error::Error;
 #[cfg(feature = "alloc")]
@@ -51,6 +54,7 @@ pub use estimator::AnyEstimator;
 pub use estimator::Estimator;
 pub use forgetting_kernels::kernel::outcome::Outcome;
 pub use forgetting_kernels::{Kernels, Real};
+pub use intervals::Intervals;
 #[cfg(feature = "alloc")]
 pub use memory::{Aligned, Dynamic};
 pub use memory::{Buffer, Fixed, Grid, Memory, Packed, Size};

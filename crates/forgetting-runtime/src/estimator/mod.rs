@@ -14,11 +14,12 @@ use crate::error::Error;
 use crate::missing::Missing;
 use crate::number::{each, make, ByType, Family, Number};
 use crate::number::{Array, NumberType, View};
-use crate::settings::Settings;
+use crate::settings::{uses_factor, Settings};
+use crate::shape;
 use crate::update::{update, Update, UpdateOptions};
 use accessors::{factor, predict, theta};
 use forgetting::saved::number_type;
-use forgetting::{AnyEstimator, Memory};
+use forgetting::{AnyEstimator, Memory, Rate, Real};
 
 /// Estimators, with the number type left open.
 pub(crate) struct Estimators;
@@ -197,6 +198,43 @@ impl Estimator {
     #[must_use]
     pub fn theta(&self) -> Array {
         each!(&self.typed, e => theta(e))
+    }
+
+    /// Goes on from this θ, (n,) or (n, m); P stays as it is.
+    ///
+    /// # Errors
+    /// [`Error`] names `theta`; nothing has changed.
+    pub fn set_theta(&mut self, theta: View<'_>) -> Result<(), Error> {
+        each!(&mut self.typed, e => {
+            let (n, m) = (e.prior().memory().parameters(), e.prior().memory().targets());
+            shape::check("theta", theta.shape(), &[], &[n, m])?;
+            let by_parameter = Number::read(theta.numbers());
+            // one target after the other
+            let place = |k: usize| by_parameter[k % n * m + k / n];
+            Ok(e.set_theta(&(0..n * m).map(place).collect::<Vec<_>>())?)
+        })
+    }
+
+    /// λ, where it is constant; none where a rate chooses it, or the rule uses none.
+    #[must_use]
+    pub fn forgetting_factor(&self) -> Option<f64> {
+        let used = uses_factor(&self.describe().rule.name);
+        let factor = each!(&self.typed, e => e.rate().constant().map(Real::to_f64));
+        factor.filter(|_| used)
+    }
+
+    /// Forgets by this constant factor from now on, λ in (0, 1].
+    ///
+    /// # Errors
+    /// [`Error`] names the factor, a rule that uses none, or a rate that chooses it; nothing has
+    /// changed.
+    pub fn set_forgetting_factor(&mut self, factor: f64) -> Result<(), Error> {
+        let rule = self.describe().rule.name;
+        if !uses_factor(&rule) {
+            let reason = format!("forgetting_factor is set, but the rule {rule} uses none");
+            return Err(Error::unsupported(reason));
+        }
+        Ok(each!(&mut self.typed, e => e.set_forgetting_factor(Real::from_f64(factor)))?)
     }
 
     /// P, (n, n), in units of 1/φ²: times the noise variance, it is the covariance of θ.

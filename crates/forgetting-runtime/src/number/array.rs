@@ -31,7 +31,8 @@ impl<'a> Numbers<'a> {
     }
 
     /// In 64 bits.
-    pub(crate) fn to_f64(self) -> Cow<'a, [f64]> {
+    #[must_use]
+    pub fn to_f64(self) -> Cow<'a, [f64]> {
         match self {
             Self::F64(numbers) => Cow::Borrowed(numbers),
             Self::F32(numbers) => numbers.iter().map(|&x| f64::from(x)).collect(),

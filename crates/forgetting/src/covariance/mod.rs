@@ -5,12 +5,16 @@
 //! [`Real::FLOOR`]: P stays positive definite whatever is asked of it.
 
 mod blocks;
+#[cfg(feature = "alloc")]
+mod bounded;
 pub(crate) mod dense;
 mod grow;
 mod measure;
 mod prior;
 pub mod spectrum;
 
+#[cfg(feature = "alloc")]
+pub use bounded::bounded;
 pub use prior::{Prior, DIFFUSE};
 
 use crate::error::Error;

@@ -1,8 +1,10 @@
 //! The estimator of which everything is chosen at run time: what fleets and saved states are made of.
 
+use super::design::Design;
 use super::{Estimator, Recursion};
+use crate::error::Error;
 use crate::memory::Dynamic;
-use crate::rates::AnyRate;
+use crate::rates::{AnyRate, Constant, Rate};
 use crate::rules::Rule;
 use crate::sample::NoiseVariance;
 use crate::weightings::AnyWeighting;
@@ -14,6 +16,24 @@ pub type AnyEstimator<T> =
     Estimator<Rule<Dynamic<T>>, AnyRate<Dynamic<T>>, AnyWeighting<Dynamic<T>>, Dynamic<T>>;
 
 impl<T: Kernels> AnyEstimator<T> {
+    /// Forgets by this constant factor from now on, λ in (0, 1].
+    ///
+    /// # Errors
+    /// [`Error`] names the factor unless it is in range, or says that the estimator has a rate that chooses
+    /// it; nothing has changed.
+    pub fn set_forgetting_factor(&mut self, factor: T) -> Result<(), Error> {
+        let constant = Constant::new(factor)?;
+        let Design { rule, rate, weighting, gate, prior, estimates_noise, .. } =
+            self.recursion.design.clone();
+        if rate.constant().is_none() {
+            let reason = "the forgetting factor cannot be set: a rate chooses it";
+            return Err(Error::Unsupported { reason });
+        }
+        let design = Design::new(rule, AnyRate::Constant(constant), weighting, gate, prior);
+        self.recursion.design = Design { estimates_noise, ..design };
+        Ok(())
+    }
+
     /// How every sample changes P, if there is nothing to do but to forget, measure and correct.
     pub(crate) fn form(&self) -> Option<Form<T>> {
         self.recursion.design.steady.map(|steady| steady.form)

@@ -45,6 +45,15 @@ impl<M: Memory> Measured<M> {
         self.units.express(self.theta.as_mut());
     }
 
+    /// Takes note of a θ in the units of the user, and expresses it as the recursion has it.
+    pub fn set_theta(&mut self, theta: &mut [M::Real]) {
+        self.theta.as_mut().copy_from_slice(theta);
+        let reciprocals = self.units.reciprocals();
+        for target in theta.chunks_exact_mut(reciprocals.len()) {
+            target.iter_mut().zip(reciprocals).for_each(|(own, &unit)| *own /= unit);
+        }
+    }
+
     /// [`Recursion::update`] for φ in the units of the user.
     pub fn update<F: Forgetting<M>, R: Rate<M>, W: Weighting<M>>(
         &mut self,

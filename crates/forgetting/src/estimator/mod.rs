@@ -125,6 +125,27 @@ where
         work(self).inspect_err(|_| (self.recursion.state, self.measured) = before)
     }
 
+    /// Goes on from θ = `theta`, m x n numbers, one target after the other. P stays as it is.
+    ///
+    /// # Errors
+    /// [`Error`] names `theta` unless it has as many numbers and they are within the range; nothing has
+    /// changed.
+    pub fn set_theta(&mut self, theta: &[M::Real]) -> Result<(), Error> {
+        let own = self.recursion.state.theta.as_mut();
+        Error::check_length("theta", theta.len(), own.len())?;
+        for (i, x) in theta.iter().enumerate() {
+            if !(x.abs() < M::Real::CEILING) {
+                let allowed = "finite, and less than the root of the largest number";
+                return Err(Error::value("theta", x.to_f64(), allowed).at(i));
+            }
+        }
+        own.copy_from_slice(theta);
+        if let Some(measured) = &mut self.measured {
+            measured.set_theta(own);
+        }
+        Ok(())
+    }
+
     /// Takes the sample of p x n numbers `phi` and p x m numbers `y`, with Γ = I.
     ///
     /// # Errors
