@@ -30,6 +30,8 @@ use forgetting_kernels::Real;
 const START: f64 = 40.0;
 /// The first sample counts exp(−5) of a later one.
 const FIRST_WEIGHT: f64 = 5.0;
+/// Times [`START`] after which nothing of it is left.
+const OVER: f64 = 40.0;
 /// Halvings of a step after which θ stays where it is.
 const HALVINGS: usize = 30;
 
@@ -57,6 +59,10 @@ pub struct Polynomial {
     samples: u64,
     /// samples until all lags are measured
     incomplete: u64,
+    /// 1 at the first sample, 0 when the start is over
+    start: f64,
+    /// whether all signals are of a size that can be gone on with
+    sound: bool,
     phi: Vec<f64>,
     candidate: Vec<f64>,
     work: Vec<f64>,
@@ -80,6 +86,8 @@ impl Polynomial {
             work: Vec::new(),
             filters: Filters::default(),
             samples: 0,
+            start: 1.0,
+            sound: true,
             orders,
             method,
             layout,
@@ -130,6 +138,7 @@ impl Polynomial {
     /// Forgets all signals, as before the first sample; θ stays.
     pub fn rest(&mut self) {
         self.signals.clear();
+        self.sound = true;
         self.incomplete = self.orders.reach() as u64;
     }
 
@@ -146,9 +155,9 @@ impl Polynomial {
                 true => signals.u.newest(),
                 false => self.origin.input(i, value),
             };
-            signals.push_input(value, &self.filters, &self.filters.f[i]);
+            self.sound &= signals.push_input(value, &self.filters, &self.filters.f[i]);
         }
-        self.signals.push_one(&self.filters);
+        self.sound &= self.signals.push_one(&self.filters);
         let form = (&self.orders, &self.layout);
         regressor::phi(&mut self.phi, form, &self.signals);
         match self.method {
@@ -186,8 +195,8 @@ impl Polynomial {
         if missing {
             self.incomplete = self.incomplete.max(self.orders.na as u64);
         }
-        self.signals.push_output(y, v, v - predictable, &self.filters);
-        if !self.signals.are_sound() {
+        self.sound &= self.signals.push_output((y, v, v - predictable), &self.filters);
+        if !self.sound {
             self.rest();
         }
     }
@@ -219,7 +228,7 @@ impl Polynomial {
             let (b, f) = (self.layout.b[i].clone(), self.layout.f[i].clone());
             let forced = signals.u.filtered(&self.theta[b], self.orders.inputs[i].nk);
             let part = forced + signals.w.filtered(&self.theta[f], 0);
-            signals.push_part(part, &self.filters, &self.filters.f[i]);
+            self.sound &= signals.push_part(part, &self.filters, &self.filters.f[i]);
             sum += part;
         }
         sum
@@ -251,21 +260,16 @@ impl Polynomial {
     }
 
     fn set_filters(&mut self) {
-        let kappa = 1.0 - self.start();
-        self.filters.set(&self.theta, &self.layout, kappa);
-    }
-
-    /// 1 at the first sample, 0 when the start is over.
-    fn start(&self) -> f64 {
         let age = self.samples as f64 / (START * self.theta.len() as f64);
-        Real::exp(-age)
+        self.start = if age < OVER { Real::exp(-age) } else { 0.0 };
+        self.filters.set(&self.theta, &self.layout, 1.0 - self.start);
     }
 
     fn scale(&self) -> f64 {
-        if self.orders.is_linear() {
+        if self.start == 0.0 || self.orders.is_linear() {
             return 1.0;
         }
-        Real::exp(-0.5 * FIRST_WEIGHT * self.start())
+        Real::exp(-0.5 * FIRST_WEIGHT * self.start)
     }
 }
 

@@ -27,11 +27,11 @@ impl Filters {
 
 fn contract(filter: &mut Vec<f64>, coefficients: &[f64], kappa: f64) {
     let mut power = 1.0;
-    filter.clear();
-    filter.extend(coefficients.iter().map(|c| {
+    filter.resize(coefficients.len(), 0.0);
+    for (own, c) in filter.iter_mut().zip(coefficients) {
         power *= kappa;
-        c * power
-    }));
+        *own = c * power;
+    }
 }
 
 /// D/C x(k), from what stands one sample back in the histories of x and D/C x.
@@ -63,22 +63,24 @@ impl InputSignals {
         }
     }
 
-    /// The input of the next sample.
-    pub fn push_input(&mut self, value: f64, filters: &Filters, f: &[f64]) {
+    /// The input of the next sample; whether all is of a size that can be gone on with.
+    pub fn push_input(&mut self, value: f64, filters: &Filters, f: &[f64]) -> bool {
         self.u.push(value);
         let white = whitened(value, filters, (&self.u, &self.u_white), 1);
         let filtered = white + self.u_filtered.filtered(f, 0);
         self.u_white.push(white);
         self.u_filtered.push(filtered);
+        are_sound(&[white, filtered])
     }
 
-    /// The part of the output that the input made.
-    pub fn push_part(&mut self, value: f64, filters: &Filters, f: &[f64]) {
+    /// The part of the output that the input made; whether all is of a size that can be gone on with.
+    pub fn push_part(&mut self, value: f64, filters: &Filters, f: &[f64]) -> bool {
         let white = whitened(value, filters, (&self.w, &self.w_white), 0);
         let filtered = white + self.w_filtered.filtered(f, 0);
         self.w.push(value);
         self.w_white.push(white);
         self.w_filtered.push(filtered);
+        are_sound(&[value, white, filtered])
     }
 
     fn all(&mut self) -> [&mut History; 6] {
@@ -128,14 +130,16 @@ impl Signals {
     }
 
     /// The constant of the next sample, through D/C.
-    pub fn push_one(&mut self, filters: &Filters) {
+    pub fn push_one(&mut self, filters: &Filters) -> bool {
         let past: f64 = filters.d.iter().sum();
         let white = 1.0 - past - self.one_white.filtered(&filters.c, 0);
         self.one_white.push(white);
+        are_sound(&[white])
     }
 
-    /// The output of a sample, its noise v and its residual ε.
-    pub fn push_output(&mut self, y: f64, v: f64, residual: f64, filters: &Filters) {
+    /// The output of a sample, its noise v and its residual ε; whether all is of a size that can be
+    /// gone on with.
+    pub fn push_output(&mut self, (y, v, residual): (f64, f64, f64), filters: &Filters) -> bool {
         let white = whitened(y, filters, (&self.y, &self.y_white), 0);
         let v_filtered = v - self.v_filtered.filtered(&filters.c, 0);
         let residual_filtered = residual - self.residual_filtered.filtered(&filters.c, 0);
@@ -145,13 +149,7 @@ impl Signals {
         self.v_filtered.push(v_filtered);
         self.residual.push(residual);
         self.residual_filtered.push(residual_filtered);
-    }
-
-    /// Whether the newest values are of a size that can be gone on with.
-    pub fn are_sound(&mut self) -> bool {
-        let mut sound = true;
-        self.each(&mut |history| sound &= history.newest().abs() < LARGEST);
-        sound
+        are_sound(&[y, v, residual, white, v_filtered, residual_filtered])
     }
 
     /// As before the first sample.
@@ -180,3 +178,7 @@ impl Signals {
 
 /// The largest value that a signal may have: its square, times its count, is finite.
 const LARGEST: f64 = 1e150;
+
+fn are_sound(values: &[f64]) -> bool {
+    values.iter().all(|x| x.abs() < LARGEST)
+}
