@@ -68,7 +68,9 @@ def test_any_split_of_a_record_is_the_same(name):
 def test_the_estimator_took_the_linear_regression(name, rule):
     u, y = record(SYSTEMS[name], 2, 400)
     model = new(name, rule=rule).fit(u, y)
-    phi, target = model.linearise(u, y)
+    course = model.course(u, y, ("phi", "y", "theta"))
+    phi, target = course["phi"], course["y"]
+    assert np.array_equal(course["theta"][-1], model.theta_)
     plain = fg.Bank(phi.shape[1]) if rule == "auto" else fg.RLS(phi.shape[1], rule=rule)
     plain.run(phi, target, missing="skip", outputs=())
     assert np.array_equal(plain.theta, model.estimator_.theta)

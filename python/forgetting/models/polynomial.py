@@ -73,7 +73,8 @@ class Polynomial(Constructor):
         # set only after success, so that a refused record leaves the model as it was
         self.estimator_, self._model, self._noise, self.used_ = estimator, model, noise, used
         self.n_inputs_ = inputs.shape[1]
-        self.names_ = self._terms(channel_names("u", u, inputs.shape[1]), y)
+        (output,) = channel_names("y", y, 1)
+        self.names_ = self.terms(channel_names("u", u, inputs.shape[1]), output)
         return self
 
     def partial_fit(self, u: ArrayLike | None, y: ArrayLike) -> Polynomial:
@@ -87,18 +88,35 @@ class Polynomial(Constructor):
         self.used_ += self._learn(self._model, self.estimator_, self._noise, inputs, outputs)
         return self
 
-    def linearise(self, u: ArrayLike | None, y: ArrayLike) -> tuple[Array, Array]:
-        """Return the record as a linear regression: what the estimator was given of it.
+    def course(
+        self, u: ArrayLike | None, y: ArrayLike, outputs: str | Sequence[str] = "theta"
+    ) -> dict[str, Array]:
+        """Identify from a whole record as `fit` does, and return what happened at each sample.
 
-        The estimator that `fit` leaves is, to the last bit, one that took these regressors
-        phi (T, n) and targets z (T,) with ``missing="skip"``: whatever is known of linear
-        regressions (excitation, windup, certificates) can be asked of them. Rows that were left
-        out are NaN. This object does not change.
+        Parameters
+        ----------
+        u, y
+            As those of `fit`. This object does not change.
+        outputs : str or sequence of str
+            Of "theta" (T, n), the estimate after each sample; "error" (T,), y less its one-step
+            prediction; "phi" (T, n) and "y" (T,), the linear regression that the estimator was
+            given; "scale" (T,), the root of the weight of each sample in it, below 1 at the
+            start; "skipped" (T,), see `forgetting.SKIPPED`. NaN where a sample was left out.
+
+        Returns
+        -------
+        dict of str to ndarray
+
+        Notes
+        -----
+        The estimator that `fit` leaves is, to the last bit, one that took "phi" and "y" with
+        ``missing="skip"``: whatever is known of linear regressions (excitation, windup,
+        certificates) can be asked of them.
         """
-        inputs, outputs = self._signals(u, y)
+        inputs, measured = self._signals(u, y)
         model, estimator = self._start(inputs.shape[1])
-        kept = model.learn(estimator, inputs, outputs, outputs=("phi", "y"))
-        return kept["phi"], kept["y"]
+        kept = model.learn(estimator, inputs, measured, outputs)
+        return {name: kept[name] for name in kept if name != "used"}
 
     def predict(self, u: ArrayLike | None, y: ArrayLike) -> Any:
         """Predict each y(k) one step ahead, from everything before it and the final theta.
@@ -180,8 +198,11 @@ class Polynomial(Constructor):
     @property
     def reach(self) -> int:
         """Rows that must come before a sample so that every measured lag exists."""
-        count = getattr(self, "n_inputs_", 1)
-        nb, nk = per_input("nb", self.nb, count), per_input("nk", self.nk, count)
+        return self.reach_of(getattr(self, "n_inputs_", 1))
+
+    def reach_of(self, inputs: int) -> int:
+        """`reach` for so many inputs."""
+        nb, nk = per_input("nb", self.nb, inputs), per_input("nk", self.nk, inputs)
         lags = [delay + order - 1 for delay, order in zip(nk, nb, strict=True)]
         return max(self.na, *lags, 0)
 
@@ -242,8 +263,16 @@ class Polynomial(Constructor):
         if inputs.shape[1] != self.n_inputs_:
             raise InvalidInput(f"u has {inputs.shape[1]} channels; the model has {self.n_inputs_}")
 
-    def _terms(self, inputs: Sequence[str], y: ArrayLike) -> list[str]:
-        (output,), orders = channel_names("y", y, 1), self._orders(len(inputs))
+    def terms(self, inputs: Sequence[str], output: str = "y") -> list[str]:
+        """What each coefficient stands at, for inputs of these names.
+
+        Examples
+        --------
+        >>> import forgetting as fg
+        >>> fg.ARMAX(na=1, nb=1, nc=1).terms(["u"])
+        ['y(k-1)', 'u(k-1)', 'e(k-1)']
+        """
+        orders = self._orders(len(inputs))
         each = list(zip(inputs, orders["inputs"], strict=True))
         names = [f"{output}(k-{lag})" for lag in range(1, orders["na"] + 1)]
         for name, (nb, _, nk) in each:
