@@ -32,6 +32,7 @@ from .fleet import FleetHealth
 from .health import Health
 from .meter import ExcitationMeter
 from .models import AR, ARMA, ARMAX, ARX, BJ, FIR, OE
+from .polynomials import PolynomialModel
 from .registry import *  # noqa: F403 (the axes and their registries)
 from .tuning import Tuning, tune, tune_arx
 
@@ -57,6 +58,7 @@ __all__ = [
     "Intervals",
     "InvalidInput",
     "NumericalRange",
+    "PolynomialModel",
     "Run",
     "Tuning",
     "Update",

@@ -200,3 +200,9 @@ def test_the_numbers_of_a_cut_out_record_keep_their_index():
     assert [c for c in found.columns if c.startswith("weights")] == [
         f"weights[{k}]" for k in range(8)
     ]
+
+
+def test_columns_may_be_called_by_numbers():
+    plain = pd.DataFrame(X)
+    assert frames.read("phi", plain).names == ("0", "1")
+    np.testing.assert_array_equal(frames.read("phi", plain).values, X)

@@ -26,6 +26,7 @@ LAYERS: tuple[tuple[tuple[str, ...], str], ...] = (
     (("judgement",), "what speaks for and against an estimate, in words; the one judge"),
     (("choices", "health", "meter"), "rules as classes; how one estimator fares"),
     (("registry", "fleet"), "all the classes by name; how many estimators fare"),
+    (("polynomials",), "what an identified model is, whoever estimated it"),
     (("models",), "they make regressors and keep an estimator behind them"),
     (("tuning",), "runs many of them and says which predicts best"),
     (("tables",), "rows of tables go to the estimator of their key"),

@@ -63,7 +63,7 @@ def read(name: str, given: Any) -> Table | None:
         values = _numbers(name, frame)
         names: tuple[str, ...] = ("" if column is None else str(column),)
     elif isinstance(frame, narwhals.DataFrame):
-        columns = [_numbers(name, frame[column]) for column in frame.columns]
+        columns = [_numbers(name, column) for column in frame.iter_columns()]
         values, names = np.column_stack(columns), tuple(map(str, frame.columns))
     else:
         return None

@@ -124,13 +124,19 @@ def levinson(correlations: Array) -> tuple[Array, float]:
 def ljung_box(correlations: Array, pairs: Array, count: int, output_lags: int) -> float:
     """Probability of such correlations by chance: the smallest of the lags, times their number."""
     tail = extra("scipy.special", "a test of residuals").chdtrc
-    terms = np.square(correlations[1:]) * (count + 2.0) / np.maximum(pairs[1:], 1.0) * count
+    statistics = ljung_box_statistics(correlations, pairs, count)
     found = []
     for lag in LAGS:
         if lag <= output_lags or lag >= min(len(correlations), max(count // 4, 2)):
             continue
-        found.append(tail(lag - output_lags, terms[:lag].sum()))
+        found.append(tail(lag - output_lags, statistics[lag - 1]))
     return float(min(1.0, min(found) * len(found))) if found else 1.0
+
+
+def ljung_box_statistics(correlations: Array, pairs: Array, count: int) -> Array:
+    """Q up to lag 1, 2, ..., from the correlations of lag 0, 1, ... and how many made them."""
+    terms = np.square(correlations[1:]) * (count + 2.0) / np.maximum(pairs[1:], 1.0) * count
+    return np.asarray(np.cumsum(terms))
 
 
 def whiteness(found: OwnPast | None, of: str, output_lags: int = 0) -> Finding | None:

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from forgetting._core import InvalidInput
 from forgetting.frames import read, shaped_like
-from forgetting.models.channels import channel_names, channels, paired
+from forgetting.frames.channels import channel_names, channels, paired
 from forgetting.models.constructor import Constructor
 from forgetting.models.estimator import new_estimator
 from forgetting.models.lags import names, regressors

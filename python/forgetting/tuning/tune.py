@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from numpy.typing import ArrayLike
 
 from forgetting._core import InvalidInput
-from forgetting.models.channels import channels, paired
+from forgetting.frames.channels import channels, paired
 from forgetting.models.lags import regressors
 from forgetting.models.orders import Orders
 from forgetting.tuning.candidate import Candidate

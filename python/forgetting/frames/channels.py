@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from forgetting._core import InvalidInput, numbers
-from forgetting.frames import Table, aligned, read
+from forgetting.frames.table import Table, aligned, read
 
 Array = NDArray[np.float64]
 
