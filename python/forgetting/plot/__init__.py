@@ -9,6 +9,10 @@ An `Identification` is drawn by `prediction`, `error`, `parameter`, `eigenvalues
 `forgetting.analysis` found is drawn by the function of the same name: `excitation`, `content`,
 `spectrum`, `conditions`, `stability`, `ultimate_bound`, `guaranteed_bounds`, `windup`,
 `confidence`; an `Excited` by `excited_directions` and `excited_parameters`.
+
+A `PolynomialModel` is drawn by `poles_and_zeros` and `simulated`, what its methods return by
+`time_response`, `frequency_response` (a Bode diagram) and `residual_tests` (or `autocorrelation`
+and `cross_correlation` alone).
 """
 
 from forgetting.plot.bars import bars, excited_directions, excited_parameters
@@ -17,7 +21,11 @@ from forgetting.plot.intervals import confidence
 from forgetting.plot.overview import overview, save_overview
 from forgetting.plot.parameters import parameter
 from forgetting.plot.regressors import content, excitation, spectrum
+from forgetting.plot.residual_tests import autocorrelation, cross_correlation, residual_tests
+from forgetting.plot.responses import frequency_response, time_response
+from forgetting.plot.roots import poles_and_zeros
 from forgetting.plot.signals import error, prediction
+from forgetting.plot.simulated import simulated
 from forgetting.plot.style import PALETTE, styled
 from forgetting.plot.theorems import conditions, stability, ultimate_bound
 from forgetting.plot.trust import alarms, excited, rank
@@ -25,10 +33,12 @@ from forgetting.plot.trust import alarms, excited, rank
 __all__ = [
     "PALETTE",
     "alarms",
+    "autocorrelation",
     "bars",
     "conditions",
     "confidence",
     "content",
+    "cross_correlation",
     "eigenvalues",
     "error",
     "excitation",
@@ -36,15 +46,20 @@ __all__ = [
     "excited_directions",
     "excited_parameters",
     "forgetting_factor",
+    "frequency_response",
     "guaranteed_bounds",
     "overview",
     "parameter",
+    "poles_and_zeros",
     "prediction",
     "rank",
+    "residual_tests",
     "save_overview",
+    "simulated",
     "spectrum",
     "stability",
     "styled",
+    "time_response",
     "ultimate_bound",
     "windup",
 ]
