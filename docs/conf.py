@@ -13,6 +13,7 @@ HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE))  # for generate.py beside this file
 
 from generate import generate  # noqa: E402
+from pictures import draw  # noqa: E402
 
 project = "forgetting"
 author = "the forgetting authors"
@@ -67,6 +68,7 @@ sphinx_gallery_conf = {
 }
 
 generate(HERE)
+draw(HERE / "models.md")
 
 
 def unmark(app, what, name, obj, options, lines):

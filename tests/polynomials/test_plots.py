@@ -69,7 +69,9 @@ def test_residuals_have_a_row_for_themselves_and_one_for_each_input():
     tests = found.residual_tests(u, y)
     axes = plot.residual_tests(tests)
     assert len(axes) == 3
-    assert "with u2" in axes[2].get_title(loc="left") and "Ljung–Box" in axes[0].get_title(loc="left")
+    assert "with u2" in axes[2].get_title(loc="left") and "Ljung–Box" in axes[0].get_title(
+        loc="left"
+    )
 
 
 def test_bars_out_of_the_band_stand_out():

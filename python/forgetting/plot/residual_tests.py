@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from forgetting.plot.style import BLUE, INK, SKY, VERMILLION, axes_or_new, literal
 from forgetting.polynomials import ResidualTests
-from forgetting.words.rounding import brief
+from forgetting.polynomials.residual_tests import written
 
 
 def residual_tests(found: ResidualTests, level: float = 0.99) -> Sequence[Axes]:
@@ -39,8 +39,7 @@ def autocorrelation(found: ResidualTests, level: float = 0.99, ax: Axes | None =
     ax = axes_or_new(ax)
     bars(ax, found.lags, found.autocorrelation, found.band(level))
     ax.set_xlabel("lag [samples]")
-    probability = found.p_value[-1]
-    words = f"Ljung–Box up to lag {found.lags[-1]}: p = {brief(probability, 2)}"
+    words = f"Ljung–Box up to lag {found.lags[-1]}: {written(found.p_value[-1])}"
     ax.set_title(f"residuals of {literal(found.output)}; {words}")
     return ax
 
@@ -58,7 +57,7 @@ def cross_correlation(
     bars(ax, found.cross_lags, found.cross_correlation[input], band)
     ax.axvline(0, color=INK, lw=0.6)
     ax.set_xlabel("lag of the residual behind the input [samples]")
-    words = f"up to 10 samples before: p = {brief(float(found.input_p_value[input]), 2)}"
+    words = f"up to 10 samples before: {written(found.input_p_value[input])}"
     ax.set_title(
         f"residuals of {literal(found.output)} with {literal(found.inputs[input])}; {words}"
     )

@@ -6,11 +6,15 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.patches import Circle, Ellipse
+from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from forgetting.plot.style import BLUE, FAINT, VERMILLION, legend_above
 from forgetting.polynomials import PolynomialModel, Roots
 from forgetting.polynomials.estimate import quantile
+
+LINE = 6.0
+"""Width of the line that is the interval of a real root, in points."""
 
 
 def poles_and_zeros(
@@ -45,6 +49,8 @@ def poles_and_zeros(
         for ellipse in ellipses(found, level, color):
             ax.add_patch(ellipse)
     ax.set_aspect("equal", adjustable="datalim")
+    for axis in (ax.xaxis, ax.yaxis):
+        axis.set_major_locator(MaxNLocator(5))
     ax.set_xlabel("real")
     ax.set_ylabel("imaginary")
     legend_above(ax, 2)
@@ -68,4 +74,5 @@ def ellipse(
     values, vectors = np.linalg.eigh(covariance)
     width, height = 2 * np.sqrt(squared * np.maximum(values[::-1], 0.0))
     angle = np.degrees(np.arctan2(vectors[1, 1], vectors[0, 1]))
-    return Ellipse((z.real, z.imag), width, height, angle=angle, color=color, alpha=0.25)
+    edge = {"lw": 0 if plane else LINE, "capstyle": "butt"}
+    return Ellipse((z.real, z.imag), width, height, angle=angle, color=color, alpha=0.3, **edge)

@@ -25,6 +25,9 @@ from forgetting.polynomials.estimate import Array, quantile
 LAGS = 25
 """Lags that are looked at, at most a quarter of the errors."""
 
+SMALLEST = 1e-12
+"""Probability below which only that is said."""
+
 
 @dataclass(frozen=True, eq=False)
 class ResidualTests:
@@ -77,10 +80,15 @@ class ResidualTests:
 
     def __str__(self) -> str:
         """The judgement in sentences, and the probabilities."""
-        last = f"white up to lag {self.lags[-1]}: p = {self.p_value[-1]:.3g}"
+        last = f"white up to lag {self.lags[-1]}: {written(self.p_value[-1])}"
         shares = zip(self.inputs, self.input_p_value, strict=True)
-        of_inputs = [f"independent of {name}: p = {p:.3g}" for name, p in shares]
+        of_inputs = [f"independent of {name}: {written(p)}" for name, p in shares]
         return "\n".join([*self.judgement.sentences(), last, *of_inputs])
+
+
+def written(probability: float) -> str:
+    """A probability as one reads it; the smallest are not told apart."""
+    return f"p = {probability:.2g}" if probability >= SMALLEST else f"p < {SMALLEST:g}"
 
 
 def residual_tests(
