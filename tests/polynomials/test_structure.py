@@ -101,7 +101,7 @@ def test_a_model_is_printed_with_the_digits_that_its_errors_leave():
         ({"C": []}, "C = "),
         ({"B": [np.nan]}, "B = .*, allowed: a row of finite"),
         ({"B": 3.0}, "B = 3.0, allowed: one polynomial for each input"),
-        ({"B": [[1.0], []]}, r"B = \[\], allowed"),
+        ({"B": [[1.0], [[2.0]]]}, "B = .*, allowed: a row of finite"),
         ({"B": [1.0], "F": [[1.0], [1.0]]}, "F has 2 polynomials, allowed: 1"),
         ({"B": [1.0], "delay": -1}, "nk = -1, allowed: a whole number >= 0"),
         ({"B": [1.0], "delay": [1, 2]}, "nk has 2 entries, allowed: one for each of 1"),
@@ -125,7 +125,7 @@ def test_what_is_no_model_is_refused(given, words):
     ("orders", "words"),
     [
         ({"na": -1}, "na = -1"),
-        ({"nb": (0, 1)}, "nb = 0, allowed: a whole number >= 1"),
+        ({"nb": (1, -1)}, "nb = -1, allowed: a whole number >= 0"),
         ({"nb": (1, 1), "nf": (1,)}, "nf has 1 entries, allowed: one for each of 2"),
         ({"na": 1.5}, "na = 1.5"),
         ({"nb": 0}, "at least one parameter"),
@@ -147,3 +147,36 @@ def test_an_unknown_input_is_refused_with_those_there_are():
         model("OE").step(input="u3")
     with pytest.raises(fg.InvalidInput, match="no input"):
         model("ARMA").step()
+
+
+def test_parameters_of_arx_with_several_inputs_are_reordered():
+    random = np.random.default_rng(0)
+    truth = fg.PolynomialModel([1, -0.5], [[1.0, 0.4, 0.2], [-2.0, 0.7, 0.1]], delay=0)
+    u = random.normal(size=(600, 2))
+    fitted = fg.ARX(na=1, nb=3, nk=0, rule="none", initial_covariance=1e8)
+    fitted.fit(u, truth.simulate(u))
+    structure = Structure(na=1, nb=(3, 3), nk=0)
+    order = structure.from_lag_order()
+    found = PolynomialModel.from_parameters(structure, fitted.theta_[order])
+    for ours, theirs in zip(found.B, truth.B, strict=True):
+        np.testing.assert_allclose(ours, theirs, atol=1e-6)
+
+
+def test_unequal_delays_are_reordered_as_lags_come():
+    structure = Structure(nb=(2, 1), nk=(2, 1))
+    assert structure.names() == ("b2[u1]", "b3[u1]", "b1[u2]")
+    assert structure.from_lag_order().tolist() == [1, 2, 0]
+
+
+def test_an_input_may_have_no_effect():
+    found = PolynomialModel.from_parameters(Structure(na=1, nb=(1, 0), nk=0), [0.5, 2.0])
+    assert found.static_gain(1).value == 0.0 and len(found.zeros(1).value) == 0
+    assert repr(found).startswith("A(q) y = B_u1(q) u1 + e\n")
+    u = np.random.default_rng(0).normal(size=(20, 2))
+    alone = fg.PolynomialModel([1, -0.5], [2.0], delay=0).simulate(u[:, 0])
+    np.testing.assert_allclose(found.simulate(u), alone)
+
+
+def test_a_noise_variance_that_is_not_known_yet_leaves_the_errors_open():
+    found = PolynomialModel.from_parameters(Structure(na=1), [0.5], [[1.0]], float("nan"))
+    assert found.noise_variance is None and np.isnan(found.standard_errors).all()

@@ -26,7 +26,7 @@ def parameters_of(
     (('a1', 'b1', 'b2'), array([0.8, 0.5, 0.2]))
     """
     one = {name: monic(name, given) for name, given in (("A", A), ("C", C), ("D", D))}
-    above = [row("B", each) for each in of_inputs("B", B)]
+    above = [row("B", each, least=0) for each in of_inputs("B", B)]
     below = [np.ones(1)] * len(above) if F is None else [monic("F", f) for f in of_inputs("F", F)]
     if len(below) != len(above):
         raise InvalidInput(f"F has {len(below)} polynomials, allowed: {len(above)}, as B")
@@ -52,10 +52,10 @@ def of_inputs(name: str, given: Any) -> Sequence[Any]:
     return [rows] if rows and all(np.ndim(each) == 0 for each in rows) else rows
 
 
-def row(name: str, given: ArrayLike) -> Array:
-    """A polynomial: a row of finite numbers, at least one."""
+def row(name: str, given: ArrayLike, least: int = 1) -> Array:
+    """A polynomial: a row of finite numbers, at least so many."""
     made = numbers(name, given)
-    if made.ndim != 1 or not made.size or not np.isfinite(made).all():
+    if made.ndim != 1 or made.size < least or not np.isfinite(made).all():
         raise InvalidInput(f"{name} = {made.tolist()}, allowed: a row of finite coefficients")
     return np.array(made, dtype=np.float64)
 
@@ -86,11 +86,11 @@ def covariance_of(given: ArrayLike | None, parameters: int) -> Array:
     return (made + made.T) / 2
 
 
-def positive(name: str, value: float | None) -> float | None:
-    """A number > 0, or None."""
-    if value is None or 0.0 < value < np.inf:
+def variance(value: float | None) -> float | None:
+    """A noise variance, >= 0, or None."""
+    if value is None or 0.0 <= value < np.inf:
         return None if value is None else float(value)
-    raise InvalidInput(f"{name} = {value!r}, allowed: a number > 0")
+    raise InvalidInput(f"noise_variance = {value!r}, allowed: a number >= 0")
 
 
 def labels(name: str, given: Any, default: Sequence[str]) -> tuple[str, ...]:

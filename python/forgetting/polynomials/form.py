@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from forgetting._core import InvalidInput
-from forgetting.polynomials.coefficients import covariance_of, labels, parameters_of, positive
+from forgetting.polynomials.coefficients import covariance_of, labels, parameters_of, variance
 from forgetting.polynomials.estimate import Array
 from forgetting.polynomials.structure import Structure
 
@@ -38,10 +38,9 @@ class Polynomials:
     ) -> None:
         self.structure, self.theta = parameters_of(A, B, C, D, F, delay, offset)
         self.covariance = covariance_of(covariance, self.structure.parameters)
-        if positive("sample_time", sample_time) is None:
-            raise InvalidInput("sample_time = None, allowed: a number > 0")
-        self.sample_time = float(sample_time)
-        self.noise_variance = positive("noise_variance", noise_variance)
+        if sample_time is None or not 0.0 < sample_time < np.inf:
+            raise InvalidInput(f"sample_time = {sample_time!r}, allowed: a number > 0")
+        self.sample_time, self.noise_variance = float(sample_time), variance(noise_variance)
         inputs = self.structure.inputs
         numbered = ["u"] if inputs == 1 else [f"u{i + 1}" for i in range(inputs)]
         self.input_names = labels("input_names", input_names, numbered)
@@ -69,7 +68,7 @@ class Polynomials:
         P : array_like, shape (n, n), optional
             Such that noise_variance * P is the covariance of theta.
         noise_variance : float, optional
-            Without it the covariance is not known.
+            Without it, or where it is NaN, the covariance is not known.
         **settings
             sample_time, input_names, input_units, output_name, output_unit.
 
@@ -93,6 +92,8 @@ class Polynomials:
         for block in structure.blocks():
             start = block.lags.start if block.letter == "b" else 0
             made[block.letter.upper()].append(structure.polynomial(given, block)[start:])
+        if noise_variance is not None and np.isnan(noise_variance):
+            noise_variance = None
         known = P is not None and noise_variance is not None
         covariance = np.asarray(P) * noise_variance if known else None
         return cls(

@@ -46,7 +46,7 @@ class PolynomialModel(Dynamics):
     sample_time : float
         > 0. Times, frequencies and time constants are in its unit.
     noise_variance : float, optional
-        Of e, > 0.
+        Of e, >= 0.
     covariance : array_like, shape (n, n), optional
         Of the parameters in the order and with the signs of `theta`: a1 ..., b ... of each input,
         c1 ..., d1 ..., f1 ... of each input, offset.

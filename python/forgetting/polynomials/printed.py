@@ -32,6 +32,8 @@ def equation(model: Any) -> str:
     left = f"A(q) {y}" if model.structure.na else y
     terms = []
     for i, name in enumerate(model.input_names):
+        if not model.structure.nb[i]:
+            continue
         mark = f"_{name}" if several else ""
         below = f"/F{mark}(q)" if model.structure.nf[i] else ""
         terms.append(f"B{mark}(q){below} {name}")

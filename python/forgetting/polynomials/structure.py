@@ -73,7 +73,7 @@ class Structure:
     na, nc, nd : int
         Orders of A, C and D, >= 0.
     nb : int or sequence of int
-        Coefficients of B for each input, >= 1; 0 or an empty sequence where there is no input.
+        Coefficients of B for each input, >= 0; 0 or an empty sequence where there is no input.
     nf : int or sequence of int
         Order of F for each input, >= 0.
     nk : int or sequence of int
@@ -145,10 +145,28 @@ class Structure:
         ]
         return (*made, "offset") if self.offset else tuple(made)
 
+    def from_lag_order(self) -> NDArray[np.intp]:
+        """Where each parameter stands if inputs are in the order of lags, as those of `ARX` are.
+
+        There, b of all inputs at the shortest lag come first, then those at the next, and so on.
+        ``theta[order]`` and ``covariance[np.ix_(order, order)]`` are in the order used here.
+
+        Examples
+        --------
+        >>> structure = Structure(na=1, nb=(2, 2), nk=0)
+        >>> structure.names(), structure.from_lag_order().tolist()
+        (('a1', 'b0[u1]', 'b1[u1]', 'b0[u2]', 'b1[u2]'), [0, 1, 3, 2, 4])
+        """
+        lags = [lag for block in self.blocks() if block.letter == "b" for lag in block.lags]
+        order = np.arange(self.parameters)
+        rank = np.argsort(np.argsort(lags, kind="stable"))
+        order[self.na : self.na + len(lags)] = self.na + rank
+        return order
+
     def polynomial(self, theta: Array, block: Block) -> Array:
         """The coefficients of one polynomial, of q⁰, q⁻¹, ...; the delay of B is zeros."""
-        made = np.zeros(block.lags.stop)
-        made[block.lags.start :] = SIGN[block.letter] * theta[block.places]
+        made = np.zeros(max(block.lags.stop, 1))
+        made[list(block.lags)] = SIGN[block.letter] * theta[block.places]
         if block.letter != "b":
             made[0] = 1.0
         return made
@@ -160,7 +178,7 @@ def entries(name: str, value: Orders, inputs: int) -> tuple[int, ...]:
     given = given * inputs if np.ndim(value) == 0 else given
     if len(given) != inputs:
         raise InvalidInput(f"{name} has {len(given)} entries, allowed: one for each of {inputs}")
-    return tuple(whole(name, each, 1 if name == "nb" else 0) for each in given)
+    return tuple(whole(name, each) for each in given)
 
 
 def whole(name: str, value: SupportsIndex, low: int = 0) -> int:
