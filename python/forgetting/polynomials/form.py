@@ -90,8 +90,8 @@ class Polynomials:
             )
         made: dict[str, list[Array]] = {letter: [] for letter in "ABCDF"}
         for block in structure.blocks():
-            start = block.lags.start if block.letter == "b" else 0
-            made[block.letter.upper()].append(structure.polynomial(given, block)[start:])
+            part = slice(block.lags.start, block.lags.stop) if block.letter == "b" else slice(None)
+            made[block.letter.upper()].append(structure.polynomial(given, block)[part])
         if noise_variance is not None and np.isnan(noise_variance):
             noise_variance = None
         known = P is not None and noise_variance is not None
