@@ -1,0 +1,38 @@
+"""The page beside other packages names files that exist, and figures that come out again."""
+
+import re
+
+import pytest
+from benchmarks import beside
+
+from .pages import ROOT
+
+TEXT = (ROOT / "docs" / "beside.md").read_text(encoding="utf-8")
+CHANGE, SILENCE, MISSING = beside.change, beside.silence, beside.missing
+
+
+def test_every_test_that_is_named_exists():
+    named = re.findall(r"`((?:tests|crates)/[\w/.-]+)`", TEXT)
+    assert len(named) > 20
+    assert not [name for name in named if not (ROOT / name).exists()]
+
+
+@pytest.mark.parametrize(
+    ("row", "situation"),
+    [
+        ("a parameter goes", "change"),
+        ("inputs stand still", "silence"),
+        ("one of 500", "missing"),
+    ],
+)
+def test_figures_come_out_again(row, situation, beside):
+    line = next(line for line in TEXT.splitlines() if line.startswith(f"| {row}"))
+    cells = [cell.strip() for cell in line.strip("|").split("|")][1:]
+    for cell, run in list(zip(cells, beside.PACKAGES.values(), strict=True))[:3]:
+        found = beside.answer(getattr(beside, situation), run)
+        if cell.startswith("NaN"):
+            assert found.startswith("NaN")
+        elif float(cell) > 0.5:  # a covariance that grows: rounding decides how far
+            assert float(found) > 0.5
+        else:
+            assert float(found) == pytest.approx(float(cell), abs=0.001)
