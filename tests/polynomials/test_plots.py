@@ -6,6 +6,7 @@ import pytest
 from matplotlib import pyplot as plt
 from matplotlib.patches import Ellipse
 
+import forgetting as fg
 from forgetting import plot
 
 from .systems import model, random_covariance, signals
@@ -92,3 +93,14 @@ def test_the_measured_output_beside_the_free_run():
     assert ax.get_ylabel() == "T [°C]"
     labels = [text.get_text() for text in ax.get_legend().get_texts()]
     assert labels == ["measured", "free run"]
+
+
+def test_labels_and_inputs_that_do_not_fit_are_refused():
+    found = model("ARX").step(5)
+    with pytest.raises(fg.InvalidInput, match="1 responses and 2 labels"):
+        plot.time_response(found, labels=["a", "b"])
+    with pytest.raises(fg.InvalidInput, match="0 responses"):
+        plot.frequency_response()
+    u, _, y = signals(model("ARX"), 100)
+    with pytest.raises(fg.InvalidInput, match="input = 1, allowed: 0 to 0"):
+        plot.cross_correlation(model("ARX").residual_tests(u, y), 1)

@@ -166,3 +166,9 @@ def test_a_free_run_of_an_unstable_model_grows_and_says_so():
 def test_a_free_run_without_a_level_of_rest_starts_at_zero():
     counter = fg.PolynomialModel([1, -1.0], [1.0], offset=0.5)
     np.testing.assert_allclose(counter.simulate(np.zeros(4)), [0.5, 1.0, 1.5, 2.0])
+
+
+@pytest.mark.parametrize("u", [5, -5, [], "x", [1.0, np.nan], [[1.0, 2.0]]])
+def test_a_free_run_of_what_are_no_inputs_is_refused(u):
+    with pytest.raises(fg.InvalidInput, match=r"^u "):
+        model("ARX").simulate(u)

@@ -9,6 +9,7 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
+from forgetting._core import InvalidInput
 from forgetting.plot.style import BLUE, INK, SKY, VERMILLION, axes_or_new, literal
 from forgetting.polynomials import ResidualTests
 from forgetting.polynomials.residual_tests import written
@@ -53,6 +54,8 @@ def cross_correlation(
     chosen after the output.
     """
     ax = axes_or_new(ax)
+    if not 0 <= input < len(found.inputs):
+        raise InvalidInput(f"input = {input}, allowed: 0 to {len(found.inputs) - 1}")
     band = float(found.cross_band(level)[input])
     bars(ax, found.cross_lags, found.cross_correlation[input], band)
     ax.axvline(0, color=INK, lw=0.6)

@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 
+from forgetting._core import InvalidInput
 from forgetting.plot.style import FAINT, PALETTE, axes_or_new, literal
 from forgetting.polynomials import FrequencyResponse, TimeResponse
 
@@ -88,6 +89,11 @@ def named(
     found: Sequence[TimeResponse | FrequencyResponse], labels: Sequence[str]
 ) -> Sequence[str]:
     """What the curves are called: as asked for, or by what they are."""
+    if not found or (labels and len(labels) != len(found)):
+        raise InvalidInput(
+            f"{len(found)} responses and {len(labels)} labels are given, "
+            f"allowed: at least one response, and no labels or one for each"
+        )
     return [literal(each) for each in labels or [response.title for response in found]]
 
 

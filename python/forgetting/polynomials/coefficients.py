@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from forgetting._core import InvalidInput, numbers
+from forgetting.polynomials.checks import real
 from forgetting.polynomials.structure import SIGN, Structure
 
 Array = NDArray[np.float64]
@@ -34,13 +35,10 @@ def parameters_of(
     nb, nf = [len(b) for b in above], [len(f) - 1 for f in below]
     structure = Structure(na, nb, nc, nd, nf, delay, offset is not None)
     parts = [SIGN["a"] * one["A"][1:], *above, one["C"][1:], SIGN["d"] * one["D"][1:]]
-    parts += [SIGN["f"] * f[1:] for f in below] + (
-        [] if offset is None else [np.array([offset], dtype=np.float64)]
-    )
-    theta = np.concatenate(parts)
-    if not np.isfinite(theta).all():
-        raise InvalidInput(f"offset = {offset}, allowed: a finite number")
-    return structure, theta
+    parts += [SIGN["f"] * f[1:] for f in below]
+    if offset is not None:
+        parts.append(np.array([real("offset", offset, -np.inf, np.inf)]))
+    return structure, np.concatenate(parts)
 
 
 def of_inputs(name: str, given: Any) -> Sequence[Any]:
@@ -84,13 +82,6 @@ def covariance_of(given: ArrayLike | None, parameters: int) -> Array:
     if not np.allclose(made, made.T, rtol=1e-6, atol=1e-12 * np.abs(made).max()):
         raise InvalidInput("covariance is not symmetric")
     return (made + made.T) / 2
-
-
-def variance(value: float | None) -> float | None:
-    """A noise variance, >= 0, or None."""
-    if value is None or 0.0 <= value < np.inf:
-        return None if value is None else float(value)
-    raise InvalidInput(f"noise_variance = {value!r}, allowed: a number >= 0")
 
 
 def labels(name: str, given: Any, default: Sequence[str]) -> tuple[str, ...]:

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from forgetting._core import InvalidInput
 from forgetting.extras import extra
+from forgetting.polynomials.checks import whole
 from forgetting.polynomials.estimate import Array, Estimate
 from forgetting.polynomials.form import Polynomials
 from forgetting.polynomials.response import (
@@ -22,7 +23,7 @@ from forgetting.polynomials.response import (
 )
 from forgetting.polynomials.roots import Roots, roots
 from forgetting.polynomials.state_space import StateSpace, state_space
-from forgetting.polynomials.structure import Block, whole
+from forgetting.polynomials.structure import Block
 from forgetting.polynomials.transfer import Transfer, transfer
 
 NOISE = "noise"
@@ -112,7 +113,7 @@ class Dynamics(Polynomials):
             return names.index(input)
         if input == NOISE:
             return None
-        if isinstance(input, str) or not 0 <= input < len(names):
+        if not isinstance(input, int | np.integer) or not 0 <= input < len(names):
             known = f"one of {', '.join(names)}, or its number" if names else "no input"
             raise InvalidInput(f"input = {input!r}, allowed: {known}, or {NOISE!r}")
         return int(input)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from forgetting._core import InvalidInput
+from forgetting.polynomials.checks import real
 
 Array = NDArray[np.float64]
 
@@ -59,6 +59,4 @@ def deviation(gradient: Array, covariance: Array) -> Array:
 
 def quantile(level: float) -> float:
     """Standard deviations to either side that hold this share of a normal distribution."""
-    if not 0.0 < level < 1.0:
-        raise InvalidInput(f"level = {level!r}, allowed: a number in (0, 1)")
-    return NormalDist().inv_cdf(0.5 + level / 2)
+    return NormalDist().inv_cdf(0.5 + real("level", level, 0.0, 1.0) / 2)

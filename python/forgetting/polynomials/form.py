@@ -7,8 +7,9 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from forgetting._core import InvalidInput
-from forgetting.polynomials.coefficients import covariance_of, labels, parameters_of, variance
+from forgetting._core import InvalidInput, numbers
+from forgetting.polynomials.checks import real
+from forgetting.polynomials.coefficients import covariance_of, labels, parameters_of
 from forgetting.polynomials.estimate import Array
 from forgetting.polynomials.structure import Structure
 
@@ -38,9 +39,10 @@ class Polynomials:
     ) -> None:
         self.structure, self.theta = parameters_of(A, B, C, D, F, delay, offset)
         self.covariance = covariance_of(covariance, self.structure.parameters)
-        if sample_time is None or not 0.0 < sample_time < np.inf:
-            raise InvalidInput(f"sample_time = {sample_time!r}, allowed: a number > 0")
-        self.sample_time, self.noise_variance = float(sample_time), variance(noise_variance)
+        self.sample_time = real("sample_time", sample_time, 0.0, np.inf)
+        self.noise_variance = noise_variance
+        if noise_variance is not None:
+            self.noise_variance = real("noise_variance", noise_variance, 0.0, np.inf, closed=True)
         inputs = self.structure.inputs
         numbered = ["u"] if inputs == 1 else [f"u{i + 1}" for i in range(inputs)]
         self.input_names = labels("input_names", input_names, numbered)
@@ -83,7 +85,7 @@ class Polynomials:
           C(q) = 1 + 0.3 q⁻¹
           stable, sample time 1
         """
-        given = np.asarray(theta, dtype=np.float64)
+        given = numbers("theta", theta)
         if given.shape != (structure.parameters,) or not np.isfinite(given).all():
             raise InvalidInput(
                 f"theta = {given.tolist()}, allowed: {structure.parameters} finite numbers"
@@ -94,8 +96,9 @@ class Polynomials:
             made[block.letter.upper()].append(structure.polynomial(given, block)[part])
         if noise_variance is not None and np.isnan(noise_variance):
             noise_variance = None
-        known = P is not None and noise_variance is not None
-        covariance = np.asarray(P) * noise_variance if known else None
+        covariance = None
+        if P is not None and noise_variance is not None:
+            covariance = numbers("P", P) * noise_variance
         return cls(
             made["A"][0],
             made["B"],

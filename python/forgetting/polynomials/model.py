@@ -11,11 +11,11 @@ from forgetting._core import InvalidInput
 from forgetting.frames import read, shaped_like
 from forgetting.frames.channels import channels, paired
 from forgetting.polynomials import prediction
+from forgetting.polynomials.checks import whole
 from forgetting.polynomials.dynamics import Dynamics
 from forgetting.polynomials.estimate import Array
 from forgetting.polynomials.printed import printed
 from forgetting.polynomials.residual_tests import ResidualTests, residual_tests
-from forgetting.polynomials.structure import whole
 
 
 class PolynomialModel(Dynamics):
@@ -98,8 +98,8 @@ class PolynomialModel(Dynamics):
         ndarray, shape (T,)
             Of pandas and xarray with its index.
         """
-        inputs = np.empty((u, 0)) if isinstance(u, int) else self._inputs(channels("u", u))
-        start = channels("y_start", np.asarray(y_start, dtype=np.float64))[:, 0]
+        given = np.empty((whole("u", u, 1), 0)) if isinstance(u, int) else channels("u", u)
+        inputs, start = self._inputs(given), channels("y_start", y_start)[:, 0]
         if len(start) > len(inputs):
             raise InvalidInput(f"y_start has {len(start)} rows, allowed: {len(inputs)}, as u")
         table = None if isinstance(u, int) or np.ndim(u) != 1 else read("u", u)
@@ -194,6 +194,8 @@ class PolynomialModel(Dynamics):
             raise InvalidInput(
                 f"u has {inputs.shape[1]} channels, allowed: {self.structure.inputs}"
             )
+        if not len(inputs):
+            raise InvalidInput("u has no rows, allowed: at least 1")
         if np.isnan(inputs).any():
             row = int(np.argwhere(np.isnan(inputs))[0][0])
             raise InvalidInput(f"u is missing in row {row}, allowed: inputs without gaps")

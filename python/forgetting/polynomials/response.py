@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from forgetting._core import InvalidInput
+from forgetting._core import InvalidInput, numbers
 from forgetting.polynomials.estimate import Array, Estimate, deviation, quantile
 from forgetting.polynomials.transfer import Transfer, at_points, filtered
 
@@ -109,12 +109,12 @@ def static_gain(transfer: Transfer, covariance: Array) -> Estimate:
         return Estimate(value[0], deviation(gradient, covariance)[0])
 
 
-def frequencies(given: object, sample_time: float) -> Array:
+def frequencies(given: ArrayLike | None, sample_time: float) -> Array:
     """The frequencies given, checked, or equal steps of a logarithm up to π/sample_time."""
     highest = np.pi / sample_time
     if given is None:
         return np.geomspace(LOWEST * highest, highest, FREQUENCIES)
-    made = np.atleast_1d(np.asarray(given, dtype=np.float64))
+    made = np.atleast_1d(numbers("frequency", given))
     good = (made > 0) & (made <= highest * (1 + 1e-12))
     if made.ndim != 1 or not good.all():
         wrong = made.shape if made.ndim != 1 else made[~good][0]

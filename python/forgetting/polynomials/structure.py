@@ -11,15 +11,14 @@ So a, d and f change their sign between the two, and b and c do not:
 
 from __future__ import annotations
 
-import operator
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import SupportsIndex
 
 import numpy as np
 from numpy.typing import NDArray
 
 from forgetting._core import InvalidInput
+from forgetting.polynomials.checks import whole
 
 Array = NDArray[np.float64]
 Orders = int | Sequence[int]
@@ -179,14 +178,3 @@ def entries(name: str, value: Orders, inputs: int) -> tuple[int, ...]:
     if len(given) != inputs:
         raise InvalidInput(f"{name} has {len(given)} entries, allowed: one for each of {inputs}")
     return tuple(whole(name, each) for each in given)
-
-
-def whole(name: str, value: SupportsIndex, low: int = 0) -> int:
-    """Return `value` as an int >= `low`, or say which order is wrong."""
-    try:
-        number = operator.index(value)
-    except TypeError:
-        number = low - 1
-    if number < low:
-        raise InvalidInput(f"{name} = {value!r}, allowed: a whole number >= {low}")
-    return number
