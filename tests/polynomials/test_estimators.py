@@ -5,7 +5,7 @@ import pytest
 from scipy.signal import lfilter
 
 import forgetting as fg
-from forgetting.polynomials import PolynomialModel, Structure
+from forgetting.polynomials import Structure
 
 TRUTH = fg.PolynomialModel(
     [1, -1.2, 0.5], [[1.0, 0.5], [0.8, -0.3]], C=[1, 0.4], delay=[1, 0], offset=0.5
@@ -30,11 +30,10 @@ def test_predictions_and_free_runs_are_those_of_the_estimator(name):
     make, orders = PARAMETRIC[name]
     u, y = record()
     fitted = make(**orders, offset=True, rule="none").fit(u, y)
-    structure = Structure(**{**orders, "nb": [2, 2]}, offset=True)
-    assert structure.parameters == len(fitted.theta_)
-    found = PolynomialModel.from_parameters(
-        structure, fitted.theta_, fitted.covariance_, fitted.noise_variance_
-    )
+    found = fitted.model(sample_time=0.5)
+    assert found.structure == Structure(**{**orders, "nb": [2, 2]}, offset=True)
+    assert np.array_equal(found.theta, fitted.theta_)
+    assert found.sample_time == 0.5
     ours, theirs = found.predict(u, y), np.asarray(fitted.predict(u, y))
     np.testing.assert_allclose(ours[SETTLED:], theirs[SETTLED:], atol=1e-8)
     ours, theirs = found.simulate(u), fitted.simulate(u)
@@ -45,24 +44,19 @@ def test_armax_is_found_with_its_noise_and_passes_the_tests_that_arx_fails():
     u, y = record(samples=8000)
     orders = {"na": 2, "nb": [2, 2], "nk": [1, 0], "offset": True}
     fitted = fg.ARMAX(**orders, nc=1, rule="none").fit(u, y)
-    structure = Structure(**orders, nc=1)
-    found = PolynomialModel.from_parameters(
-        structure, fitted.theta_, fitted.covariance_, fitted.noise_variance_
-    )
+    found = fitted.model()
     off = np.abs(found.theta - TRUTH.theta) / found.standard_errors
     assert (off < 4).all(), off
     tests = found.residual_tests(u, y)
     assert tests.p_value[-1] > 1e-3 and tests.input_p_value.min() > 1e-3
     arx = fg.ARX(**orders, rule="none").fit(u, y)
-    plain = Structure(**orders)
-    without = PolynomialModel.from_parameters(plain, arx.theta_[plain.from_lag_order()])
+    without = arx.model()
     assert without.residual_tests(u, y).p_value[-1] < 1e-6
 
 
 def test_arx_with_several_inputs_predicts_as_its_model():
     u, y = record()
     fitted = fg.ARX(na=2, nb=[2, 1], nk=[1, 0], offset=True, rule="none").fit(u, y)
-    structure = Structure(na=2, nb=[2, 1], nk=[1, 0], offset=True)
-    found = PolynomialModel.from_parameters(structure, fitted.theta_[structure.from_lag_order()])
+    found = fitted.model()
     ours, theirs = found.predict(u, y), np.asarray(fitted.predict(u, y))
     np.testing.assert_allclose(ours[SETTLED:], theirs[SETTLED:], atol=1e-9)

@@ -13,9 +13,12 @@ from forgetting.frames import read, shaped_like
 from forgetting.frames.channels import channel_names, channels, paired
 from forgetting.models.constructor import Constructor
 from forgetting.models.estimator import new_estimator
+from forgetting.models.identified import identified
 from forgetting.models.lags import names, regressors
+from forgetting.models.mean_square import MEMORY, MeanSquare
 from forgetting.models.orders import Orders, OrdersByInput, per_input
 from forgetting.models.simulation import free_run
+from forgetting.polynomials import PolynomialModel, Structure
 
 Array = NDArray[np.float64]
 
@@ -135,16 +138,14 @@ class ARX(Constructor):
             initial_covariance=self.initial_covariance,
             dtype=self.dtype,
         )
-        used = self._learn(estimator, orders, inputs, outputs)
+        noise = MeanSquare(outputs.shape[1], MEMORY, skip=estimator.parameters)
+        used = self._learn(estimator, noise, orders, inputs, outputs)
         self.n_inputs_, self.n_outputs_ = inputs.shape[1], outputs.shape[1]
-        self.names_ = (
-            names(
-                channel_names("y", y, outputs.shape[1]),
-                channel_names("u", u, inputs.shape[1]),
-                orders,
-            )
-            + ["offset"] * self.offset
+        self._labels = (
+            channel_names("y", y, outputs.shape[1]),
+            channel_names("u", u, inputs.shape[1]),
         )
+        self.names_ = names(*self._labels, orders) + ["offset"] * self.offset
         self._single = np.ndim(y) == 1
         self._remember(orders, inputs, outputs)
         self.samples_, self.used_ = len(outputs), used
@@ -162,7 +163,8 @@ class ARX(Constructor):
         orders = self._orders(inputs)
         old_inputs, old_outputs = self._tail
         inputs, outputs = np.vstack([old_inputs, inputs]), np.vstack([old_outputs, outputs])
-        self.used_ += self._learn(self.estimator_, orders, inputs, outputs, len(old_outputs))
+        used = self._learn(self.estimator_, self._noise, orders, inputs, outputs, len(old_outputs))
+        self.used_ += used
         self.samples_ += len(outputs) - len(old_outputs)
         self._remember(orders, inputs, outputs)
         return self
@@ -203,6 +205,31 @@ class ARX(Constructor):
         simulated = free_run(inputs, start, coefficients, self._orders(inputs), constant)
         return simulated[:, 0] if self._single else simulated
 
+    def model(self, theta: ArrayLike | None = None, *, sample_time: float = 1.0) -> PolynomialModel:
+        """Return what was identified of one output as a model: poles, gains, responses, tests.
+
+        Parameters
+        ----------
+        theta : (n,) array_like, optional
+            The estimate at another sample; the last if not given. What is said of standard errors
+            is that of the last sample.
+        sample_time : float, default 1
+            Time between samples, in which times and frequencies are told.
+        """
+        self._check_is_fitted()
+        if self.n_outputs_ != 1:
+            raise InvalidInput(f"the model has {self.n_outputs_} outputs; only one can be shown so")
+        nb, nk = (per_input(name, getattr(self, name), self.n_inputs_) for name in ("nb", "nk"))
+        return identified(
+            Structure(na=self.na, nb=nb, nk=nk, offset=self.offset),
+            np.ravel(self.theta_ if theta is None else theta),
+            self.covariance_,
+            float(self.noise_variance_[0]),
+            self._labels,
+            by_lag=True,
+            sample_time=sample_time,
+        )
+
     def _orders(self, inputs: Array) -> Orders | OrdersByInput:
         orders = orders_of(self.na, self.nb, self.nk, inputs.shape[1])
         if (orders.nb != 0) != (inputs.shape[1] > 0):
@@ -213,6 +240,7 @@ class ARX(Constructor):
     def _learn(
         self,
         estimator: Any,
+        noise: MeanSquare,
         orders: Orders | OrdersByInput,
         inputs: Array,
         outputs: Array,
@@ -222,10 +250,14 @@ class ARX(Constructor):
         target = outputs[skip:, 0] if outputs.shape[1] == 1 else outputs[skip:]
         dtype = np.dtype(self.dtype)
         phi, target = phi.astype(dtype, copy=False), target.astype(dtype, copy=False)
-        used = int(estimator.run(phi, target, outputs=(), missing="skip").used)
+        run = estimator.run(phi, target, outputs=("error", "skipped"), missing="skip")
+        noise.add(
+            np.asarray(run.error, dtype=np.float64).reshape(outputs[skip:].shape)[run.skipped == 0]
+            ** 2
+        )
         # Set only after success, so that a refused record leaves the model as it was.
-        self.estimator_ = estimator
-        return used
+        self.estimator_, self._noise = estimator, noise
+        return int(run.used)
 
     def _phi(self, inputs: Array, outputs: Array, orders: Orders | OrdersByInput) -> Array:
         phi = regressors(inputs, outputs, orders)
@@ -265,6 +297,15 @@ class ARX(Constructor):
     def covariance_(self) -> Array:
         """P after the last sample, (n, n)."""
         return np.asarray(self._learned("covariance_").covariance)
+
+    @property
+    def noise_variance_(self) -> Array:
+        """Variance of the noise of each output, (outputs,), over up to the last thousand samples.
+
+        NaN while there are too few.
+        """
+        self._learned("noise_variance_")
+        return self._noise.value
 
     def _learned(self, name: str) -> Any:
         # AttributeError (not InvalidInput), so that hasattr(model, "theta_") is False before fit.

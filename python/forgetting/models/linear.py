@@ -9,12 +9,9 @@ from numpy.typing import NDArray
 
 from forgetting._core import Bank
 from forgetting.models.estimator import new_estimator
-from forgetting.models.mean_square import MeanSquare
+from forgetting.models.mean_square import MEMORY, MeanSquare
 
 Array = NDArray[np.float64]
-
-MEMORY = 1000
-"""Samples over which the variance of the noise is averaged."""
 
 SHORT_MEMORY = 100
 """Samples over which the squared errors of a bank are averaged; they change as its weights do."""

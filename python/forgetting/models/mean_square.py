@@ -7,6 +7,9 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
+MEMORY = 1000
+"""Samples over which the variance of the noise of one rule is averaged."""
+
 
 class MeanSquare:
     """The mean of squares over up to so many samples, the later ones once there are more.

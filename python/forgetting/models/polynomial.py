@@ -13,13 +13,12 @@ from forgetting.frames import read, shaped_like
 from forgetting.frames.channels import channel_names, channels, paired
 from forgetting.models.constructor import Constructor
 from forgetting.models.estimator import new_estimator
-from forgetting.models.mean_square import MeanSquare
+from forgetting.models.identified import identified
+from forgetting.models.mean_square import MEMORY, MeanSquare
 from forgetting.models.orders import per_input, whole
+from forgetting.polynomials import PolynomialModel, Structure
 
 Array = NDArray[np.float64]
-
-MEMORY = 1000
-"""Samples over which the variance of the noise is averaged."""
 
 
 class Polynomial(Constructor):
@@ -73,8 +72,8 @@ class Polynomial(Constructor):
         # set only after success, so that a refused record leaves the model as it was
         self.estimator_, self._model, self._noise, self.used_ = estimator, model, noise, used
         self.n_inputs_ = inputs.shape[1]
-        (output,) = channel_names("y", y, 1)
-        self.names_ = self.terms(channel_names("u", u, inputs.shape[1]), output)
+        self._labels = channel_names("y", y, 1), channel_names("u", u, inputs.shape[1])
+        self.names_ = self.terms(self._labels[1], self._labels[0][0])
         return self
 
     def partial_fit(self, u: ArrayLike | None, y: ArrayLike) -> Polynomial:
@@ -170,6 +169,38 @@ class Polynomial(Constructor):
         inputs = self._inputs_of_run(u)
         nothing = np.full(len(inputs), np.nan)
         return np.asarray(self._model.predict(inputs, nothing, from_rest=False))
+
+    def model(self, theta: ArrayLike | None = None, *, sample_time: float = 1.0) -> PolynomialModel:
+        """Return what was identified as a model: poles, gains, responses, tests of its residuals.
+
+        Parameters
+        ----------
+        theta : (n,) array_like, optional
+            The estimate at another sample, a row of ``course(...)["theta"]``; the last if not
+            given. What is said of standard errors is that of the last sample.
+        sample_time : float, default 1
+            Time between samples, in which times and frequencies are told.
+        """
+        self._check_is_fitted()
+        orders = self._orders(self.n_inputs_)
+        each = np.array(orders["inputs"], dtype=int).reshape(-1, 3)
+        structure = Structure(
+            na=orders["na"],
+            nb=each[:, 0].tolist(),
+            nc=orders["nc"],
+            nd=orders["nd"],
+            nf=each[:, 1].tolist(),
+            nk=each[:, 2].tolist(),
+            offset=self.offset,
+        )
+        return identified(
+            structure,
+            self.theta_ if theta is None else theta,
+            self.covariance_,
+            self.noise_variance_,
+            self._labels,
+            sample_time=sample_time,
+        )
 
     @property
     def theta_(self) -> Array:
