@@ -10,10 +10,10 @@ import forgetting
 os.environ.setdefault("MPLBACKEND", "Agg")
 
 HERE = Path(__file__).parent
-sys.path.insert(0, str(HERE))  # for generate.py beside this file
+sys.path.insert(0, str(HERE))  # for the folder `writing` beside this file
 
-from generate import generate  # noqa: E402
 from pictures import draw  # noqa: E402
+from writing import write_pages  # noqa: E402
 
 project = "forgetting"
 author = "the forgetting authors"
@@ -24,6 +24,8 @@ extensions = [
     "myst_parser",
     "sphinx.ext.autodoc",
     "sphinx.ext.napoleon",
+    "sphinx_design",
+    "writing.katex",
     "sphinx_gallery.gen_gallery",
 ]
 exclude_patterns = ["_build", "**.ipynb", "tutorials/*", "figures/*", "README.md"]
@@ -35,13 +37,15 @@ suppress_warnings = [
 html_theme = "furo"
 html_title = "forgetting"
 html_static_path = ["_static"]
-html_css_files = ["pages.css"]
+html_css_files = ["katex/katex.min.css", "pages.css"]
+html_js_files = ["katex/katex.min.js", "formulas.js"]
+html_math_renderer = "katex"
 html_copy_source = False
 html_show_sphinx = False
 pygments_style = "friendly"
 pygments_dark_style = "native"
 
-myst_enable_extensions = ["colon_fence", "deflist"]
+myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 
 autodoc_typehints = "none"  # the docstrings say shapes, units and ranges
@@ -67,7 +71,7 @@ sphinx_gallery_conf = {
     "within_subsection_order": "FileNameSortKey",
 }
 
-generate(HERE)
+write_pages(HERE)
 draw(HERE / "models.md")
 
 

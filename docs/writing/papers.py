@@ -1,71 +1,26 @@
-"""Pages that are written from the package itself, so that they cannot drift from it."""
+"""The pages of the papers: claims, errata, and figures, all computed when they are written."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from forgetting.choices import AXES, Axis
 from forgetting.papers import PAPERS, all_checks, all_pictures
 from forgetting.papers.errata.markdown import escaped, page
 from forgetting.papers.table import summary
+
+from .write import write
 
 SEEDS = 50
 """Noise realisations for the table of claims on its page; `forgetting reproduce` uses 200."""
 
 
-def generate(docs: Path) -> None:
-    """Write every generated page under `docs`."""
+def pages(docs: Path) -> None:
+    """Write the pages of claims and errata, and a script for each figure."""
     write(docs / "errata.md", page())
     write(docs / "papers.md", claims())
-    for axis in AXES.values():
-        for about in axis.entries:
-            write(docs / axis.plural / f"{about['name']}.md", choice(about))
-        write(docs / axis.plural / "index.md", overview(axis))
     write(docs / "figures" / "README.rst", FIGURES)
     for each in all_pictures():
         write(docs / "figures" / f"plot_{each.name}.py", script(each))
-
-
-def write(path: Path, text: str) -> None:
-    """Write a page unless it says that already: Sphinx then reads only what changed."""
-    path.parent.mkdir(exist_ok=True)
-    if not path.exists() or path.read_text(encoding="utf-8") != text:
-        path.write_text(text, encoding="utf-8")
-
-
-def choice(about: dict) -> str:
-    """The page of a rule, rate, weighting or gate: its header, and how it is written."""
-    rated = [("forgetting_factor", "0.99, or a [rate](../rates/index.md)")]
-    first = rated if about.get("forgetting_factor") else []
-    shown = [*first, *((p["name"], default(p)) for p in about["parameters"])]
-    lines = [f"- `{name}`: default {value}" for name, value in shown] or ["It has no parameters."]
-    facts = f"The class is `forgetting.{about['type_name']}`, its registry name `{about['name']}`."
-    return (
-        f"# {about['name']}\n\n{about['header'].strip()}\n\n## In Python\n\n{facts}\n\n"
-        + "\n".join(lines)
-        + "\n"
-    )
-
-
-def default(parameter: dict) -> str:
-    """How a default is shown."""
-    return "none: must be given" if parameter["required"] else f"`{parameter['default']!r}`"
-
-
-def overview(axis: Axis) -> str:
-    """The list of a registry."""
-    rows = [f"| [{e['name']}]({e['name']}.md) | {escaped(e['summary'])} |" for e in axis.entries]
-    names = "\n".join(e["name"] for e in axis.entries)
-    table = "\n".join(["| name | |", "|---|---|", *rows])
-    words = f"{axis.summary}\n\n{PAGES}"
-    title = axis.plural.capitalize()
-    return f"# {title}\n\n{words}\n\n{table}\n\n```{{toctree}}\n:hidden:\n\n{names}\n```\n"
-
-
-PAGES = (
-    "One page each, written from the head of the file that implements it. "
-    "[How to choose](../choosing.md) comes first."
-)
 
 
 def claims() -> str:

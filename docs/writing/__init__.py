@@ -1,0 +1,16 @@
+"""Pages that are written from the package itself, so that they cannot drift from it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from forgetting.choices import AXES
+
+from . import choices, papers
+
+
+def write_pages(docs: Path) -> None:
+    """Write every generated page under `docs`."""
+    papers.pages(docs)
+    for axis in AXES.values():
+        choices.pages(docs, axis)
