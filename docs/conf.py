@@ -26,9 +26,10 @@ extensions = [
     "sphinx.ext.napoleon",
     "sphinx_design",
     "writing.katex",
+    "writing.playground",
     "sphinx_gallery.gen_gallery",
 ]
-exclude_patterns = ["_build", "**.ipynb", "tutorials/*", "figures/*", "README.md"]
+exclude_patterns = ["_build", "**.ipynb", "tutorials/*", "figures/*", "playground/**"]
 suppress_warnings = [
     "config.cache",  # sphinx-gallery keeps objects in its configuration
     "ref.python",  # words such as "rows" in the shapes of docstrings are no references

@@ -6,11 +6,13 @@ from pathlib import Path
 
 from forgetting.choices import AXES
 
-from . import choices, papers
+from . import api, choices, command, papers
 
 
 def write_pages(docs: Path) -> None:
     """Write every generated page under `docs`."""
     papers.pages(docs)
+    command.pages(docs)
+    api.pages(docs)
     for axis in AXES.values():
         choices.pages(docs, axis)

@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 
 import forgetting as fg
 from forgetting.files import whole
+from forgetting.plot import weights
 from forgetting.plot.style import BLUE, FAINT, GREEN, INK, PURPLE, VERMILLION, styled
 
 from .record import BOTH_SILENT, ONE_SILENT, SAMPLES, Array, record
@@ -111,8 +112,7 @@ def extra(ax: Axes, name: str, run: Any) -> None:
     """Draw what is of this axis alone."""
     values = getattr(run, name)
     if name == "weights":
-        ax.stackplot(np.arange(SAMPLES), values.T, colors=shades(values.shape[1]), lw=0)
-        ax.set_ylim(0, 1)
+        weights(run, ax=ax)
     elif name == "gate":
         ax.plot(values, ".", color=PURPLE, ms=2.5)
         ax.set_yticks([0, 1, 2], [fg.GATE[code] for code in (0, 1, 2)])
@@ -121,11 +121,6 @@ def extra(ax: Axes, name: str, run: Any) -> None:
         ax.plot(values, color=GREEN, lw=1.0)
         ax.set_ylim(min(values.min(), 0.95) - 0.02, 1.02)
     ax.set_ylabel(WORDS[name])
-
-
-def shades(count: int) -> Array:
-    """Colours from slow members to fast ones."""
-    return np.asarray(plt.get_cmap("viridis")(np.linspace(0.05, 0.95, count)))
 
 
 def finish(axes: Any) -> None:

@@ -1,0 +1,198 @@
+"""The pages of the command: every option as the command itself has it, and runs with their output."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import typer.main
+
+from forgetting.cli.app import app
+from forgetting.demo.battery import RECORD
+
+from .write import write
+
+WIDTH, LONGEST, SECONDS = "92", 60, 300
+"""Columns of the terminal, lines of output that are shown, and how long a run may take."""
+RUNS = {
+    "identify": [
+        'forgetting identify record.csv --formula "V ~ I"',
+        "forgetting identify record.csv --show",
+        "forgetting identify record.csv --output V --input I --arx 1,2,0 --rule subspace "
+        "--forgetting-factor 0.99",
+    ],
+    "tune": ['forgetting tune record.csv --formula "V ~ I"'],
+    "compare": ['forgetting compare record.csv --formula "V ~ I"'],
+    "certify": ['forgetting certify record.csv --formula "V ~ I" --rule subspace'],
+    "stream": ['grep -v "^,V" record.csv | forgetting stream --formula "V ~ I" | tail -n 2'],
+    "fleet": [
+        "forgetting fleet 'data/*.parquet' --by device --time t --output y --input u "
+        "--state fleet.arrow",
+        "forgetting fleet 'data/*.parquet' --by device --time t --output y --input u "
+        "--state fleet.arrow",
+    ],
+    "rules": ["forgetting rules subspace"],
+    "demo": ["forgetting demo"],
+    "reproduce": ["forgetting reproduce vdf --example 9"],
+}
+"""Lines that are run for the page of a command, one after the other in the same folder."""
+
+
+def pages(docs: Path) -> None:
+    """Write a page for every command, and one that lists them."""
+    commands = typer.main.get_command(app).commands  # type: ignore[attr-defined]
+    missing = commands.keys() ^ RUNS.keys()
+    if missing:
+        raise LookupError(f"commands without a run, or runs without a command: {missing}")
+    for name, command in commands.items():
+        write(docs / "command" / f"{name}.md", page(name, command))
+    write(docs / "command" / "index.md", overview(commands))
+
+
+def page(name: str, command: Any) -> str:
+    """The page of a command."""
+    parts = [f"# forgetting {name}", plain(command.help), usage(name, command), "## Runs", GIVEN]
+    parts += runs(RUNS[name])
+    parts += ["## Options", f"```{{program}} forgetting {name}\n```", *options(command)]
+    return "\n\n".join(parts) + "\n"
+
+
+GIVEN = (
+    "They were run when this page was built, in a folder with `record.csv`, the record that "
+    "`forgetting demo` writes, and `data`, a folder of tables of four devices."
+)
+
+
+def usage(name: str, command: Any) -> str:
+    """How it is called."""
+    arguments = " ".join(
+        each.name.upper() if each.required else f"[{each.name.upper()}]"
+        for each in command.params
+        if not is_option(each)
+    )
+    return f"```text\nforgetting {name} [OPTIONS] {arguments}".rstrip() + "\n```"
+
+
+def runs(lines: list[str]) -> Iterator[str]:
+    """Every line with what it prints."""
+    with tempfile.TemporaryDirectory() as folder:
+        prepare(Path(folder))
+        for line in lines:
+            yield f"```console\n$ {line}\n```"
+            yield f"```text\n{printed(line, Path(folder))}\n```"
+
+
+def prepare(folder: Path) -> None:
+    """A record, tables of four devices, and the command."""
+    shutil.copy(RECORD, folder / "record.csv")
+    k = np.arange(400)
+    table = {"device": k % 4, "t": k, "u": np.sin(k)}
+    (folder / "data").mkdir()
+    pd.DataFrame(table | {"y": 2 * table["u"]}).to_parquet(folder / "data" / "day.parquet")
+    command = folder / "bin" / "forgetting"
+    command.parent.mkdir()
+    command.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m forgetting "$@"\n')
+    command.chmod(0o755)
+
+
+def printed(line: str, folder: Path) -> str:
+    """What a line prints; it must succeed."""
+    path = f"{folder / 'bin'}{os.pathsep}{os.environ['PATH']}"
+    done = subprocess.run(
+        ["bash", "-o", "pipefail", "-c", line],
+        cwd=folder,
+        env={**os.environ, "PATH": path, "COLUMNS": WIDTH, "NO_COLOR": "1"},
+        capture_output=True,
+        text=True,
+        timeout=SECONDS,
+    )
+    if done.returncode:
+        raise RuntimeError(f"{line}: exit code {done.returncode}: {done.stderr}{done.stdout}")
+    lines = [each.rstrip() for each in done.stdout.strip("\n").splitlines()]
+    more = [f"... and {len(lines) - LONGEST} lines more"] if len(lines) > LONGEST else []
+    return "\n".join([*lines[:LONGEST], *more])
+
+
+def options(command: Any) -> Iterator[str]:
+    """Arguments and options, in the groups of the help."""
+    groups: dict[str, list[Any]] = {}
+    for each in command.params:
+        group = getattr(each, "rich_help_panel", None) or "Options"
+        groups.setdefault(group if is_option(each) else "Arguments", []).append(each)
+    for group, members in groups.items():
+        if len(groups) > 1:
+            yield f"### {group}"
+        for each in members:
+            yield option(each)
+
+
+def option(each: Any) -> str:
+    """One option, as an entry of the index; an argument is one in capitals."""
+    shown = [*each.opts, *each.secondary_opts] if is_option(each) else [each.name.upper()]
+    value = f" {each.metavar or kind(each)}" if is_option(each) and not is_flag(each) else ""
+    words = [plain(each.help or "")]
+    if each.required and not is_option(each):
+        words.append("Required.")
+    elif each.default not in (None, False, [], ()) and not is_flag(each):
+        told = each.show_default if isinstance(each.show_default, str) else each.default
+        words.append(f"Default: `{told}`.")
+    elif is_flag(each) and each.secondary_opts:
+        words.append(f"Default: `{each.opts[0] if each.default else each.secondary_opts[0]}`.")
+    return f"```{{option}} {', '.join(shown)}{value}\n{' '.join(words)}\n```"
+
+
+def is_option(each: Any) -> bool:
+    """Whether a parameter has a name with dashes."""
+    return str(each.opts[0]).startswith("-")
+
+
+def is_flag(each: Any) -> bool:
+    """Whether an option takes no value."""
+    return bool(getattr(each, "is_flag", False))
+
+
+def kind(each: Any) -> str:
+    """What stands for the value of an option."""
+    return "NUMBER" if isinstance(each.default, int | float) else "TEXT"
+
+
+def plain(text: str) -> str:
+    """Help as Markdown."""
+    return text.replace("*", r"\*").replace("<", r"\<").strip()
+
+
+def overview(commands: Any) -> str:
+    """The list of commands."""
+    rows = [f"| [`{n}`]({n}.md) | {c.help.split(chr(10))[0]} |" for n, c in commands.items()]
+    return OVERVIEW.format(rows="\n".join(rows), names="\n".join(commands))
+
+
+OVERVIEW = """# The command
+
+    pip install 'forgetting[cli]'
+
+| `forgetting` | |
+|---|---|
+{rows}
+
+Every command has `--help`. `forgetting --version` prints the version.
+
+The exit code is 0 when all went well; 1 when the result itself is a warning (`certify`: the
+covariance wound up; `reproduce`: a claim does not hold; `fleet`: the saved state of a stream was
+refused); 2 for bad use and bad data, with one line that says what was wrong; 130 after Ctrl-C. A
+file is written whole or not at all.
+
+```{{toctree}}
+:hidden:
+
+{names}
+```
+"""
