@@ -26,8 +26,7 @@ RUNS = {
     "identify": [
         'forgetting identify record.csv --formula "V ~ I"',
         "forgetting identify record.csv --show",
-        "forgetting identify record.csv --output V --input I --arx 1,2,0 --rule subspace "
-        "--forgetting-factor 0.99",
+        "forgetting identify record.csv --output V --input I --arx 1,2,0",
     ],
     "tune": ['forgetting tune record.csv --formula "V ~ I"'],
     "compare": ['forgetting compare record.csv --formula "V ~ I"'],
@@ -87,7 +86,7 @@ def runs(lines: list[str]) -> Iterator[str]:
         prepare(Path(folder))
         for line in lines:
             yield f"```console\n$ {line}\n```"
-            yield f"```text\n{printed(line, Path(folder))}\n```"
+            yield f"```{{code-block}} text\n:class: run\n\n{printed(line, Path(folder))}\n```"
 
 
 def prepare(folder: Path) -> None:

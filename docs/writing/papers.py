@@ -8,6 +8,7 @@ from forgetting.papers import PAPERS, all_checks, all_pictures
 from forgetting.papers.errata.markdown import escaped, page
 from forgetting.papers.table import summary
 
+from . import typeset
 from .write import write
 
 SEEDS = 50
@@ -16,8 +17,8 @@ SEEDS = 50
 
 def pages(docs: Path) -> None:
     """Write the pages of claims and errata, and a script for each figure."""
-    write(docs / "errata.md", page())
-    write(docs / "papers.md", claims())
+    write(docs / "errata.md", typeset.page(page()))
+    write(docs / "papers.md", typeset.page(claims()))
     write(docs / "figures" / "README.rst", FIGURES)
     for each in all_pictures():
         write(docs / "figures" / f"plot_{each.name}.py", script(each))

@@ -97,6 +97,7 @@ class Best(Mixer):
     - Cost: O(K p m). State: K numbers.
     - Use it to see which member fits when. As a predictor it jumps from member to member where two
       are alike: `mlpol` is seldom worse.
+    - Not to predict, where members are alike.
 
     Reference: the rule of follow the leader; N. Cesa-Bianchi, G. Lugosi, *Prediction, Learning, and
     Games*, Cambridge University Press, 2006.
@@ -167,6 +168,8 @@ class Constant(Rate):
       counts half.
     - Cost: none. State: none.
     - Use it first: it is the one number that the others replace.
+    - Not where parameters rest and move in turns: one factor is too noisy for the one or too slow
+      for the other.
 
     Reference: GF-RLS (35).
     """
@@ -260,6 +263,8 @@ class CovarianceResetting(Rule):
     - Cost: that of the rule; and O(n²/2) for trace, O(p n²/2) for change, O(n³/3) for
       smallest_eigenvalue. State: the rule's, k, g and v.
     - Use it for parameters that jump: `change` with any rule for the time between the jumps.
+    - Not for slow drift: a reset throws away what is known, and between resets the other rule has
+      to follow.
 
     Reference: G. C. Goodwin, E. K. Teoh, H. Elliott, *Deterministic convergence of a self-tuning
     regulator with covariance resetting*, IEE Proceedings D 130, 1983; E. S. Page, *Continuous
@@ -338,6 +343,8 @@ class CyclicResetting(Rule):
     - Cost: O((p + 1) n²). State: P and the place in the cycle.
     - Use it in the place of `exponential_resetting` when n is large. With λ_k that varies within
       a cycle the inserted weights are those of each sample's λ_k, and the cycle is approximate.
+    - Not where n is small: `exponential_resetting` then costs little more, and is exact at every
+      sample.
 
     Reference: B. Lai, D. S. Bernstein, *Exponential resetting and cyclic resetting recursive
     least squares*, IEEE Control Systems Letters 7, 2023.
@@ -427,6 +434,7 @@ class DeadZone(Gate):
     - Cost: O(p m). State: none.
     - Use it against drift in quiet times, and where the parameters change seldom: `freeze` then
       averages on, and forgets when the model no longer fits.
+    - Not with hold where every sample is needed: in Gaussian noise most of them are held.
 
     Reference: B. Egardt, *Stability of Adaptive Controllers*, 1979; G. C. Goodwin, K. S. Sin,
     *Adaptive Filtering, Prediction and Control*, 1984.
@@ -496,6 +504,7 @@ class DynamicModelAveraging(Mixer):
       error then moves them far: `mlpol` is the sturdier.
     - Cost: O(K p m) and K logarithms and exponentials. State: 2 K + 1 numbers.
     - Use it where the probability of each model is itself the result.
+    - Not with gross errors in y.
 
     Reference: A. E. Raftery, M. Kárný, P. Ettler, *Online prediction under model uncertainty via
     dynamic model averaging: application to a cold rolling mill*, Technometrics 52(1), 2010, with the
@@ -572,6 +581,7 @@ class Equal(Weighting):
     - Influence is not bounded: an error twice as large moves θ twice as far.
     - Cost: none. State: none.
     - Use it when the noise is near to Gaussian, or Γ tells how good each sample is.
+    - Not with gross errors: one moves θ as far as it is large.
 
     Reference: B. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
     stability and robustness guarantees*, IEEE Transactions on Automatic Control, 2024, Theorem 1.
@@ -606,6 +616,7 @@ class ExactGradient(Rate):
       until five after 2n samples have told it, errors count as 0.
     - Cost: O(n³/6 + p n²), for the elements of P. State: Z, Ψ and the next λ, n² + m n + 1 numbers.
     - Use it for slow drift when n is small; `gradient` costs nothing beside.
+    - Not for jumps: λ follows over many samples. Not for large n, by its cost.
 
     Reference: S. Haykin, *Adaptive Filter Theory*, "RLS algorithm with adaptive memory".
     """
@@ -670,6 +681,7 @@ class ExponentialResetting(Rule):
     - Cost: O((p + r) n²), r the rank of R_∞; O(n³) for a full one. State: P alone.
     - Use it when what is known without data should come back in silence. `cyclic_resetting`
       does nearly the same in O(n²).
+    - Not where what was learned should outlive silence: it fades towards R_∞. `subspace` keeps it.
 
     Reference: B. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
     stability and robustness guarantees*, IEEE Transactions on Automatic Control, 2024, V-E.
@@ -718,6 +730,7 @@ class FTest(Rate):
     - The quantile is found once, by bisection of the continued fraction of the incomplete beta
       function: ten digits or more.
     - Use it in place of `rms_ratio` when false alarms cost something.
+    - Not for slow drift: both windows then see the same errors.
 
     Reference: N. Mohseni, D. S. Bernstein, *Recursive least squares with variable-rate forgetting
     based on the F-test*, American Control Conference, 2022.
@@ -761,6 +774,7 @@ class Fortescue(Rate):
       until five after 2n samples have told it, errors count as 0.
     - Cost: O(p n²/2 + p² n). State: the next λ.
     - Use it when the noise variance is known and constant; else `noise_power`.
+    - Not where σ² is a guess: too small, it forgets at every sample; too large, hardly ever.
 
     Reference: T. R. Fortescue, L. S. Kershenbaum, B. E. Ydstie, *Implementation of self-tuning
     regulators with variable forgetting factors*, Automatica 17(6), 1981.
@@ -795,6 +809,7 @@ class Function(Rate):
       estimator with a function cannot be.
     - Use it for a design of your own. One that is to be saved, or to run without an interpreter, is
       better a rate.
+    - Not where speed counts: the function is called at every sample.
     """
 
     about: ClassVar[Mapping[str, Any]]
@@ -823,6 +838,7 @@ class GateFunction(Gate):
       estimator with a function cannot be.
     - Use it for what you know and the record does not say: a valve that is shut, a sensor that
       saturates.
+    - Not where speed counts: the function is called at every sample.
     """
 
     about: ClassVar[Mapping[str, Any]]
@@ -864,6 +880,7 @@ class Gradient(Rate):
       until five after 2n samples have told it, errors count as 0.
     - Cost: O(1). State: six numbers.
     - Use it for slow, steady drift in noise whose variance is stationary.
+    - Not for jumps: λ follows over many samples.
 
     Reference: S. H. Leung, C. F. So, *Gradient-based variable forgetting factor RLS algorithm in
     time-varying environments*, IEEE Transactions on Signal Processing 53(8), 2005.
@@ -907,6 +924,7 @@ class Huber(Weighting):
       until five after 2n samples have told it, w = 1.
     - Cost: O(p m). State: none.
     - Use it when some samples are gross errors. One in φ is not recognized.
+    - Not where a large error is news: a jump of θ is followed more slowly.
 
     Reference: P. J. Huber, *Robust estimation of a location parameter*, Annals of Mathematical
     Statistics 35(1), 1964.
@@ -946,6 +964,7 @@ class MatrixForgetting(Rule):
       near α is hardly touched: the return to α is slower than any exponential, and information
       well below α may jump beyond it. β > 0 bounds the jump.
     - Use it to reproduce work that used it; else `exponential_resetting`.
+    - Not where information falls far below α by itself: with N ≥ 3 it may jump beyond it.
 
     Reference: A. Goel, A. L. Bruce, D. S. Bernstein, *Recursive least squares with
     variable-direction forgetting*, IEEE Control Systems Magazine 40(4), 2020, sidebar "Toward
@@ -992,6 +1011,8 @@ class MinimumInformation(Gate):
     - Cost: O(p n²/2). State: none.
     - Use it with a rule that forgets in silence, such as `exponential`, for records with nights
       and standstills.
+    - Not against silence in some directions while others go on telling: that takes a rule that
+      forgets by directions.
     """
 
     about: ClassVar[Mapping[str, Any]]
@@ -1025,6 +1046,8 @@ class Mlpol(Mixer):
     - A member that has always been worse than the mixture has weight 0, and costs nothing.
     - Cost: O(K p m). State: 3 K + 1 numbers.
     - Use it first: it is the default mixer.
+    - Not where the best member changes often: regret is added up since the start, and the weights
+      turn back slowly.
 
     Reference: P. Gaillard, G. Stoltz, T. van Erven, *A second-order bound with excess losses*,
     Proceedings of the 27th Conference on Learning Theory, 2014 (ML-Poly).
@@ -1130,6 +1153,7 @@ class NoisePower(Rate):
       until five after 2n samples have told it, errors count as 0.
     - Cost: O(p n²/2) for tr S. State: three averages and the next λ.
     - Use it when the noise is unknown or its variance changes slowly.
+    - Not where changes are small beside the noise: they hide in its power.
 
     Reference: C. Paleologu, J. Benesty, S. Ciochină, *A robust variable forgetting factor
     recursive least-squares algorithm for system identification*, IEEE Signal Processing Letters
@@ -1200,6 +1224,7 @@ class Open(Gate):
 
     - Cost: none. State: none.
     - Use it where the rule itself knows what to leave alone, as `subspace` does.
+    - Not with a rule that forgets in silence, where the input may fall silent.
     """
 
     about: ClassVar[Mapping[str, Any]]
@@ -1231,6 +1256,7 @@ class PredictionError(Rate):
       until five after 2n samples have told it, errors count as 0.
     - Cost: O(p n²/2) for tr S. State: none.
     - Use it when jumps show in the error at once and the noise is small beside them.
+    - Not where noise is large beside the changes: every large error is then taken for one.
 
     Reference: K. Zhu, C. Yu, Y. Wan, *Recursive least squares identification with
     variable-direction forgetting via oblique projection decomposition*, IEEE/CAA Journal of
@@ -1284,6 +1310,7 @@ class RandomWalk(Rule):
       data, Q counts in units of the typical size of each regressor. Use the cyclic schedule where n
       is large and θ moves little in n samples: without data a whole cycle adds what r samples add, and
       within one P is off by less than that.
+    - Not without a bound where the input may fall silent for ever: P then grows without end.
 
     A diagonal Q is taken in the order of its elements, a full one in the order of the pivots of
     Cholesky's factorization with diagonal pivots. k counts the samples used.
@@ -1373,6 +1400,7 @@ class RmsRatio(Rate):
       numbers.
     - Use it when the noise variance is unknown. A change is noticed only once, against the errors
       of before.
+    - Not for slow drift: both windows then see the same errors.
 
     Reference: A. L. Bruce, A. Goel, D. S. Bernstein, *Convergence and consistency of recursive
     least squares with variable-rate forgetting*, Automatica 119, 2020.
@@ -1393,7 +1421,7 @@ class Schedule(Rate):
     """Takes the factors from a list, one a sample.
 
     ```text
-    λ_k = l_min(k, N − 1)       end = "hold": the last one for ever
+    λ_k = l_(min(k, N − 1))     end = "hold": the last one for ever
     λ_k = l_(k mod N)           end = "repeat": from the first one again
     ```
 
@@ -1406,6 +1434,7 @@ class Schedule(Rate):
     - λ is within the smallest and the largest of the list.
     - Cost: O(1). State: none, the list is configuration.
     - Use it to forget the start fast, or when it is known when parameters change.
+    - Not where it is the record that has to tell when parameters change.
     """
 
     about: ClassVar[Mapping[str, Any]]
@@ -1442,6 +1471,7 @@ class Stabilised(Rule):
     - Cost: O(n³), at n ≤ 10 with P_∞ = c·I about twice that of `exponential`. State: P alone.
     - Use it when the gain must neither wind up nor fall asleep, with both bounds stated
       beforehand. The smallest variance that it keeps, (1 − λ) P_∞, is noise in the estimate.
+    - Not where the estimate must come to rest: P̄ is at least (1 − λ) P_∞ at every sample.
 
     Reference: R. Kulhavý, F. J. Kraus, *On duality of regularized exponential and linear
     forgetting*, Automatica 32, 1996; with P_∞ = c·I the linear case of J. E. Parkum, N. K. Poulsen,
@@ -1482,6 +1512,8 @@ class StudentT(Weighting):
     - Cost: O(p m). State: none.
     - Use it when gross errors are so large that even a clipped one disturbs; `huber` loses less
       when there are none. After a jump of θ it takes longer to believe.
+    - Not where a large error is news: a jump of θ is taken for gross errors, and hardly followed
+      at first.
 
     Reference: K. L. Lange, R. J. A. Little, J. M. G. Taylor, *Robust statistical modeling using the
     t distribution*, Journal of the American Statistical Association 84(408), 1989.
@@ -1517,7 +1549,10 @@ class Subspace(Rule):
     - `threshold` is the smallest singular value of the whitened φ that counts as information, in
       units of φ̄; set it above the noise of the regressors. Smaller ones are neither forgotten nor
       accumulated.
-    - Use it first: it is the default rule.
+    - Use it first where P₀ is given: it is then the default rule.
+    - Not where knowledge goes stale in silence: it is kept, with the variance that it had. One
+      direction is forgotten a sample and row, so that with n parameters the memory is about n
+      times that of `exponential` with the same λ.
 
     Reference: B. Lai, D. S. Bernstein, *SIFt-RLS: subspace of information forgetting recursive
     least squares*, arXiv 2404.10844, 2024; for one row, L. Cao, H. M. Schwartz, *A directional
@@ -1558,6 +1593,7 @@ class UnityZone(Rate):
       until five after 2n samples have told it, errors count as 0.
     - Cost: O(1). State: none.
     - Use it for parameters that are constant but for jumps.
+    - Not for slow drift: while its errors stay within the noise, nothing is forgotten.
 
     Reference: D. J. Park, B. E. Jun, J. H. Kim, *Fast tracking RLS algorithm using novel variable
     forgetting factor with unity zone*, Electronics Letters 27(23), 1991.

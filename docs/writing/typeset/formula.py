@@ -26,6 +26,7 @@ BEHIND = re.compile(r"[^\s;=<>≤≥+−/(] $")
 """Where a word stands behind something that gives it no space by itself."""
 SUM = re.compile(r"(?:_[bijk])?[^_]")
 """What stands behind a Σ that is a sum; Σ_n and Σ_d are matrices."""
+POWER = re.compile(r"\d+(?:\.\d+)?e[+-]\d+")
 FOLLOWING = re.compile(r",[A-Za-z](?![A-Za-z])|[+−]1(?!\d)")
 """What belongs to a subscript behind its first part: R_bb,k and P_k+1."""
 
@@ -100,6 +101,10 @@ class _Reader:
         """The next piece, with what stands below and above it."""
         if self.next == " ":
             return self.space()
+        number = self.take(POWER)
+        if number:
+            digits, _, power = number.partition("e")
+            return rf"{digits}\cdot 10^{{{int(power)}}}"
         phrase = PHRASE.match(self.text, self.at)
         made = self.words(phrase.group()) if phrase else self.atom()
         return made + self.scripts()

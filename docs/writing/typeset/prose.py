@@ -16,7 +16,10 @@ from .symbols import ABOVE, ACCENTS, BELOW, FUNCTIONS, GREEK, RELATIONS
 PROTECTED = re.compile(r"(`[^`]*`|\*\*?[^*\s][^*]*\*\*?|\[[^\]]*\]\([^)]*\)|\$[^$]*\$)")
 STRONG = {*GREEK, *ABOVE, *BELOW, *ACCENTS, *"‖√∞½⌊"}
 OPERATORS = {*RELATIONS, *"+−/·×|", "mod"}
-LONE = re.compile(r"[b-zB-Z]|…|\d+(?:\.\d+)?|\d+[a-zA-Z]{1,2}|\d+/\w+|[a-zA-Z]/\d+")
+INITIAL = re.compile(r"[A-Z]\. [A-Z]")
+LABEL = re.compile(r"[a-z],?\)")
+"""The initial of a name before the next, and the b) of a figure."""
+LONE = re.compile(r"[b-zB-Z]|…|\d+(?:\.\d+)?(?:e[+-]?\d+)?|\d+[a-zA-Z]{1,2}|\d+/\w+|[a-zA-Z]/\d+")
 """What may be an operand without a sign of mathematics: a letter, a number, 2n, 1/k."""
 APPLIED = ("tr", "ln")
 """Functions written without brackets."""
@@ -39,7 +42,7 @@ def prose(text: str, names: tuple[str, ...] = ()) -> str:
     Examples
     --------
     >>> print(prose("P̄ is at least (1 − λ) P_∞, as ever; see `P_∞`."))
-    $\\bar{P}$ is at least $(1 - \\lambda) P_{\\infty }$, as ever; see `P_∞`.
+    $\\bar{P}$ is at least $(1 - \\lambda) P_{\\infty}$, as ever; see `P_∞`.
     >>> print(prose("by min(1/(β + 1/floor), 1) if n is small."))
     by $\\min(1/(\\beta + 1/\\text{floor}), 1)$ if $n$ is small.
     """
@@ -69,6 +72,8 @@ def _sentence(text: str, names: tuple[str, ...]) -> str:
 
 def _belongs(word: str, run: list[str], names: tuple[str, ...], following: str) -> bool:
     """Whether a word is part of the formula that is being read, or begins one."""
+    if INITIAL.fullmatch(f"{word} {following[:1]}") or (LABEL.fullmatch(word) and not _open(run)):
+        return False
     bare = word.strip(ENDS).lstrip("([{").rstrip(")]}") or word.strip(ENDS)
     if _open(run) or _strong(word) or bare in OPERATORS or CALL.match(word.lstrip("([")):
         return True

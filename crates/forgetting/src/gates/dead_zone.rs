@@ -26,6 +26,7 @@
 //! - Cost: O(p m). State: none.
 //! - Use it against drift in quiet times, and where the parameters change seldom: `freeze` then
 //!   averages on, and forgets when the model no longer fits.
+//! - Not with hold where every sample is needed: in Gaussian noise most of them are held.
 //!
 //! Reference: B. Egardt, *Stability of Adaptive Controllers*, 1979; G. C. Goodwin, K. S. Sin,
 //! *Adaptive Filtering, Prediction and Control*, 1984.

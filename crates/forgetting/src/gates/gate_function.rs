@@ -16,6 +16,7 @@
 //!   estimator with a function cannot be.
 //! - Use it for what you know and the record does not say: a valve that is shut, a sensor that
 //!   saturates.
+//! - Not where speed counts: the function is called at every sample.
 
 use super::{Answer, Gate};
 use crate::choice::function::EvidenceFunction;

@@ -23,6 +23,8 @@
 //! - Cost: O(p n²/2). State: none.
 //! - Use it with a rule that forgets in silence, such as `exponential`, for records with nights
 //!   and standstills.
+//! - Not against silence in some directions while others go on telling: that takes a rule that
+//!   forgets by directions.
 
 use super::otherwise::{self, OTHERWISE};
 use super::{Answer, Gate};

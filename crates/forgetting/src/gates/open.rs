@@ -9,6 +9,7 @@
 //!
 //! - Cost: none. State: none.
 //! - Use it where the rule itself knows what to leave alone, as `subspace` does.
+//! - Not with a rule that forgets in silence, where the input may fall silent.
 
 use super::{Answer, Gate};
 use crate::choice::{About, Value, Values};

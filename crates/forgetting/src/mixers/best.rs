@@ -11,6 +11,7 @@
 //! - Cost: O(K p m). State: K numbers.
 //! - Use it to see which member fits when. As a predictor it jumps from member to member where two
 //!   are alike: `mlpol` is seldom worse.
+//! - Not to predict, where members are alike.
 //!
 //! Reference: the rule of follow the leader; N. Cesa-Bianchi, G. Lugosi, *Prediction, Learning, and
 //! Games*, Cambridge University Press, 2006.

@@ -16,6 +16,7 @@
 //!   error then moves them far: `mlpol` is the sturdier.
 //! - Cost: O(K p m) and K logarithms and exponentials. State: 2 K + 1 numbers.
 //! - Use it where the probability of each model is itself the result.
+//! - Not with gross errors in y.
 //!
 //! Reference: A. E. Raftery, M. Kárný, P. Ettler, *Online prediction under model uncertainty via
 //! dynamic model averaging: application to a cold rolling mill*, Technometrics 52(1), 2010, with the

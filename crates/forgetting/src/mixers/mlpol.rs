@@ -20,6 +20,8 @@
 //! - A member that has always been worse than the mixture has weight 0, and costs nothing.
 //! - Cost: O(K p m). State: 3 K + 1 numbers.
 //! - Use it first: it is the default mixer.
+//! - Not where the best member changes often: regret is added up since the start, and the weights
+//!   turn back slowly.
 //!
 //! Reference: P. Gaillard, G. Stoltz, T. van Erven, *A second-order bound with excess losses*,
 //! Proceedings of the 27th Conference on Learning Theory, 2014 (ML-Poly).

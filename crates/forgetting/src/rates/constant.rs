@@ -12,6 +12,8 @@
 //!   counts half.
 //! - Cost: none. State: none.
 //! - Use it first: it is the one number that the others replace.
+//! - Not where parameters rest and move in turns: one factor is too noisy for the one or too slow
+//!   for the other.
 //!
 //! Reference: GF-RLS (35).
 

@@ -22,6 +22,7 @@
 //!   until five after 2n samples have told it, errors count as 0.
 //! - Cost: O(n³/6 + p n²), for the elements of P. State: Z, Ψ and the next λ, n² + m n + 1 numbers.
 //! - Use it for slow drift when n is small; `gradient` costs nothing beside.
+//! - Not for jumps: λ follows over many samples. Not for large n, by its cost.
 //!
 //! Reference: S. Haykin, *Adaptive Filter Theory*, "RLS algorithm with adaptive memory".
 

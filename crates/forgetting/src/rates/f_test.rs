@@ -30,6 +30,7 @@
 //! - The quantile is found once, by bisection of the continued fraction of the incomplete beta
 //!   function: ten digits or more.
 //! - Use it in place of `rms_ratio` when false alarms cost something.
+//! - Not for slow drift: both windows then see the same errors.
 //!
 //! Reference: N. Mohseni, D. S. Bernstein, *Recursive least squares with variable-rate forgetting
 //! based on the F-test*, American Control Conference, 2022.

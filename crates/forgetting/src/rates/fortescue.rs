@@ -23,6 +23,7 @@
 //!   until five after 2n samples have told it, errors count as 0.
 //! - Cost: O(p n²/2 + p² n). State: the next λ.
 //! - Use it when the noise variance is known and constant; else `noise_power`.
+//! - Not where σ² is a guess: too small, it forgets at every sample; too large, hardly ever.
 //!
 //! Reference: T. R. Fortescue, L. S. Kershenbaum, B. E. Ydstie, *Implementation of self-tuning
 //! regulators with variable forgetting factors*, Automatica 17(6), 1981.

@@ -16,6 +16,7 @@
 //!   estimator with a function cannot be.
 //! - Use it for a design of your own. One that is to be saved, or to run without an interpreter, is
 //!   better a rate.
+//! - Not where speed counts: the function is called at every sample.
 
 use super::{Evidence, Needs, Rate};
 use crate::choice::function::EvidenceFunction;

@@ -29,6 +29,7 @@
 //!   until five after 2n samples have told it, errors count as 0.
 //! - Cost: O(1). State: six numbers.
 //! - Use it for slow, steady drift in noise whose variance is stationary.
+//! - Not for jumps: λ follows over many samples.
 //!
 //! Reference: S. H. Leung, C. F. So, *Gradient-based variable forgetting factor RLS algorithm in
 //! time-varying environments*, IEEE Transactions on Signal Processing 53(8), 2005.

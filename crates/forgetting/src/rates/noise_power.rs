@@ -27,6 +27,7 @@
 //!   until five after 2n samples have told it, errors count as 0.
 //! - Cost: O(p n²/2) for tr S. State: three averages and the next λ.
 //! - Use it when the noise is unknown or its variance changes slowly.
+//! - Not where changes are small beside the noise: they hide in its power.
 //!
 //! Reference: C. Paleologu, J. Benesty, S. Ciochină, *A robust variable forgetting factor
 //! recursive least-squares algorithm for system identification*, IEEE Signal Processing Letters

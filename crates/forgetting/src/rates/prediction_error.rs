@@ -22,6 +22,7 @@
 //!   until five after 2n samples have told it, errors count as 0.
 //! - Cost: O(p n²/2) for tr S. State: none.
 //! - Use it when jumps show in the error at once and the noise is small beside them.
+//! - Not where noise is large beside the changes: every large error is then taken for one.
 //!
 //! Reference: K. Zhu, C. Yu, Y. Wan, *Recursive least squares identification with
 //! variable-direction forgetting via oblique projection decomposition*, IEEE/CAA Journal of

@@ -22,6 +22,7 @@
 //!   numbers.
 //! - Use it when the noise variance is unknown. A change is noticed only once, against the errors
 //!   of before.
+//! - Not for slow drift: both windows then see the same errors.
 //!
 //! Reference: A. L. Bruce, A. Goel, D. S. Bernstein, *Convergence and consistency of recursive
 //! least squares with variable-rate forgetting*, Automatica 119, 2020.

@@ -1,7 +1,7 @@
 //! Takes the factors from a list, one a sample.
 //!
 //! ```text
-//! λ_k = l_min(k, N − 1)       end = "hold": the last one for ever
+//! λ_k = l_(min(k, N − 1))     end = "hold": the last one for ever
 //! λ_k = l_(k mod N)           end = "repeat": from the first one again
 //! ```
 //!
@@ -14,6 +14,7 @@
 //! - λ is within the smallest and the largest of the list.
 //! - Cost: O(1). State: none, the list is configuration.
 //! - Use it to forget the start fast, or when it is known when parameters change.
+//! - Not where it is the record that has to tell when parameters change.
 
 use super::{Evidence, Rate};
 use crate::choice::{About, Kind, Parameter, Range, Value, Values};

@@ -21,6 +21,7 @@
 //!   until five after 2n samples have told it, errors count as 0.
 //! - Cost: O(1). State: none.
 //! - Use it for parameters that are constant but for jumps.
+//! - Not for slow drift: while its errors stay within the noise, nothing is forgotten.
 //!
 //! Reference: D. J. Park, B. E. Jun, J. H. Kim, *Fast tracking RLS algorithm using novel variable
 //! forgetting factor with unity zone*, Electronics Letters 27(23), 1991.

@@ -42,6 +42,8 @@
 //! - Cost: that of the rule; and O(n²/2) for trace, O(p n²/2) for change, O(n³/3) for
 //!   smallest_eigenvalue. State: the rule's, k, g and v.
 //! - Use it for parameters that jump: `change` with any rule for the time between the jumps.
+//! - Not for slow drift: a reset throws away what is known, and between resets the other rule has
+//!   to follow.
 //!
 //! Reference: G. C. Goodwin, E. K. Teoh, H. Elliott, *Deterministic convergence of a self-tuning
 //! regulator with covariance resetting*, IEE Proceedings D 130, 1983; E. S. Page, *Continuous

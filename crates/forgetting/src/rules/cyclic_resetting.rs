@@ -23,6 +23,8 @@
 //! - Cost: O((p + 1) n²). State: P and the place in the cycle.
 //! - Use it in the place of `exponential_resetting` when n is large. With λ_k that varies within
 //!   a cycle the inserted weights are those of each sample's λ_k, and the cycle is approximate.
+//! - Not where n is small: `exponential_resetting` then costs little more, and is exact at every
+//!   sample.
 //!
 //! Reference: B. Lai, D. S. Bernstein, *Exponential resetting and cyclic resetting recursive
 //! least squares*, IEEE Control Systems Letters 7, 2023.

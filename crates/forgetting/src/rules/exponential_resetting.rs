@@ -16,6 +16,7 @@
 //! - Cost: O((p + r) n²), r the rank of R_∞; O(n³) for a full one. State: P alone.
 //! - Use it when what is known without data should come back in silence. `cyclic_resetting`
 //!   does nearly the same in O(n²).
+//! - Not where what was learned should outlive silence: it fades towards R_∞. `subspace` keeps it.
 //!
 //! Reference: B. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
 //! stability and robustness guarantees*, IEEE Transactions on Automatic Control, 2024, V-E.

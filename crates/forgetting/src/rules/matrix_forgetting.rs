@@ -24,6 +24,7 @@
 //!   near α is hardly touched: the return to α is slower than any exponential, and information
 //!   well below α may jump beyond it. β > 0 bounds the jump.
 //! - Use it to reproduce work that used it; else `exponential_resetting`.
+//! - Not where information falls far below α by itself: with N ≥ 3 it may jump beyond it.
 //!
 //! Reference: A. Goel, A. L. Bruce, D. S. Bernstein, *Recursive least squares with
 //! variable-direction forgetting*, IEEE Control Systems Magazine 40(4), 2020, sidebar "Toward

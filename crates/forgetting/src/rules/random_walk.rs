@@ -33,6 +33,7 @@
 //!   data, Q counts in units of the typical size of each regressor. Use the cyclic schedule where n
 //!   is large and θ moves little in n samples: without data a whole cycle adds what r samples add, and
 //!   within one P is off by less than that.
+//! - Not without a bound where the input may fall silent for ever: P then grows without end.
 //!
 //! A diagonal Q is taken in the order of its elements, a full one in the order of the pivots of
 //! Cholesky's factorization with diagonal pivots. k counts the samples used.

@@ -23,6 +23,7 @@
 //! - Cost: O(n³), at n ≤ 10 with P_∞ = c·I about twice that of `exponential`. State: P alone.
 //! - Use it when the gain must neither wind up nor fall asleep, with both bounds stated
 //!   beforehand. The smallest variance that it keeps, (1 − λ) P_∞, is noise in the estimate.
+//! - Not where the estimate must come to rest: P̄ is at least (1 − λ) P_∞ at every sample.
 //!
 //! Reference: R. Kulhavý, F. J. Kraus, *On duality of regularized exponential and linear
 //! forgetting*, Automatica 32, 1996; with P_∞ = c·I the linear case of J. E. Parkum, N. K. Poulsen,

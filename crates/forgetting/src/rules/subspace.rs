@@ -20,7 +20,10 @@
 //! - `threshold` is the smallest singular value of the whitened φ that counts as information, in
 //!   units of φ̄; set it above the noise of the regressors. Smaller ones are neither forgotten nor
 //!   accumulated.
-//! - Use it first: it is the default rule.
+//! - Use it first where P₀ is given: it is then the default rule.
+//! - Not where knowledge goes stale in silence: it is kept, with the variance that it had. One
+//!   direction is forgotten a sample and row, so that with n parameters the memory is about n
+//!   times that of `exponential` with the same λ.
 //!
 //! Reference: B. Lai, D. S. Bernstein, *SIFt-RLS: subspace of information forgetting recursive
 //! least squares*, arXiv 2404.10844, 2024; for one row, L. Cao, H. M. Schwartz, *A directional

@@ -10,6 +10,7 @@
 //! - Influence is not bounded: an error twice as large moves θ twice as far.
 //! - Cost: none. State: none.
 //! - Use it when the noise is near to Gaussian, or Γ tells how good each sample is.
+//! - Not with gross errors: one moves θ as far as it is large.
 //!
 //! Reference: B. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
 //! stability and robustness guarantees*, IEEE Transactions on Automatic Control, 2024, Theorem 1.

@@ -24,6 +24,7 @@
 //!   until five after 2n samples have told it, w = 1.
 //! - Cost: O(p m). State: none.
 //! - Use it when some samples are gross errors. One in φ is not recognized.
+//! - Not where a large error is news: a jump of θ is followed more slowly.
 //!
 //! Reference: P. J. Huber, *Robust estimation of a location parameter*, Annals of Mathematical
 //! Statistics 35(1), 1964.

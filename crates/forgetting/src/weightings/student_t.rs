@@ -20,6 +20,8 @@
 //! - Cost: O(p m). State: none.
 //! - Use it when gross errors are so large that even a clipped one disturbs; `huber` loses less
 //!   when there are none. After a jump of θ it takes longer to believe.
+//! - Not where a large error is news: a jump of θ is taken for gross errors, and hardly followed
+//!   at first.
 //!
 //! Reference: K. L. Lange, R. J. A. Little, J. M. G. Taylor, *Robust statistical modeling using the
 //! t distribution*, Journal of the American Statistical Association 84(408), 1989.
