@@ -6,7 +6,9 @@
 #                libopenblas0-pthread; without them the report says what is missing
 #   make accuracy   one-step errors beside peers and the best that could have been chosen in hindsight, on the
 #                records of the demo; RECORDS=folder for other ones, .csv or .parquet
-#   make docs    the documentation, warnings as errors
+#   make docs    the documentation, warnings and dead links as errors, in two minutes
+#   make sdist   the source distribution, built without git and installed into an empty environment;
+#                compiles everything, in some five minutes
 #   make fuzz    random input for FUZZ_SECONDS a target (an hour), new seeds each time: estimators, saved
 #                states, text files, formulas, clocks, tables of fleets
 #   make soak    a billion samples through every rule of O(n^2), the default and the bank, in hours; goes on
@@ -29,7 +31,7 @@ FUZZ_SECONDS ?= 3600
 SOAK_STEPS ?= 1000000000
 SOAK_FOLDER ?= $(CURDIR)/build/soak
 
-.PHONY: accuracy fuzz soak demo test lint rust python build bench bench-full docs stubs clean
+.PHONY: accuracy fuzz soak demo test lint rust python build bench bench-full docs sdist stubs clean
 
 demo: $(VENV)/records
 	$(DEVELOP) --profile $(PROFILE) --extras cli
@@ -80,8 +82,21 @@ stubs: build
 	$(BIN)/python tools/generate.py
 
 docs: build
-	$(PIP) install sphinx myst-parser sphinx-gallery furo
+	$(PIP) install sphinx myst-parser sphinx-gallery furo sphinx-design
+	rm -rf docs/_build
 	$(WITH_RECORDS) $(BIN)/sphinx-build -W -b html docs docs/_build
+	cd docs && ../$(BIN)/python -m writing.links _build
+
+# From a copy without git, as somebody has it who unpacked an archive.
+SDIST := $(CURDIR)/build/sdist
+sdist: $(VENV)/maturin
+	rm -rf $(SDIST) && mkdir -p $(SDIST)/source
+	tar -c --exclude=./.git --exclude=./target --exclude=./build --exclude='./.venv*' . | tar -x -C $(SDIST)/source
+	cd $(SDIST)/source && GIT_CEILING_DIRECTORIES=$(SDIST) $(CURDIR)/$(BIN)/maturin sdist --out $(SDIST)
+	$(PYTHON) -m venv $(SDIST)/empty
+	$(SDIST)/empty/bin/python -m pip install --disable-pip-version-check -q $(SDIST)/forgetting-*.tar.gz
+	cd $(SDIST) && empty/bin/python -c "import doctest, forgetting; assert not doctest.testmod(forgetting).failed; \
+	    print(forgetting.__version__, forgetting.__file__)"
 
 # what pip cannot install, the report names
 PEERS = sed -e 's/ *\#.*//' -e '/^$$/d' $(1) | while read peer; do \

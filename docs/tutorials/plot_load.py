@@ -38,9 +38,9 @@ load = load + (0.9 + 0.45 * day / 365) * heating + noise
 # %%
 # The regressors: a constant, two harmonics of the day, the weekend and its first harmonic, heating.
 angle = 2 * np.pi * hour / 24
+daily = [np.sin(angle), np.cos(angle), np.sin(2 * angle), np.cos(2 * angle)]
 phi = np.column_stack(
-    [np.ones(hours.size), np.sin(angle), np.cos(angle), np.sin(2 * angle), np.cos(2 * angle)]
-    + [weekend, weekend * np.sin(angle), heating]
+    [np.ones(hours.size), *daily, weekend, weekend * np.sin(angle), heating],
 )
 
 # %%
@@ -66,7 +66,9 @@ later = day >= 28
 scale = load[later].mean()
 for name, made in forecast.items():
     off = made[later] - load[later]
-    print(f"{name:22} RMSE {np.sqrt(np.mean(off**2)) / scale * 100:5.2f} % of the mean load", end="")
+    print(
+        f"{name:22} RMSE {np.sqrt(np.mean(off**2)) / scale * 100:5.2f} % of the mean load", end=""
+    )
     print(f", in the weeks of the closure {np.sqrt(np.mean((made - load)[closed] ** 2)):5.2f} MW")
 
 # %%

@@ -43,7 +43,7 @@ for part, words in enumerate(("resting", "walking fast", "resting", "walking slo
     print("error {:.3f} and {:.3f}".format(*errors))
 
 # %%
-# Dark is a long memory, bright a short one. Both mixers see within a few samples that the parameters
+# Dark is a long memory, bright a short one. Both mixers see within a few samples that parameters
 # move: an estimate that lags is soon wrong. That they have come to rest shows slowly, as a short
 # memory costs little, and ``mlpol``, which adds up all errors since the start, has not believed it
 # after a thousand samples. What that costs is printed above.

@@ -65,8 +65,8 @@ with styled():
     below.legend(ncols=4)
 
 # %%
-# How far off each is after the first 30 seconds, and in the cruise. ``component`` is off by more than
-# ``multiple`` here: it believes what the errors of the slope, which lags, seem to say of the mass.
+# How far off each is after the first 30 seconds, and in the cruise. ``component`` is off by more
+# than ``multiple`` here: it believes what the errors of the slope, which lags, say of the mass.
 for name, run in runs.items():
     off = np.abs(run.theta[:, 0] * mass / 1e4 - 1)
     lost = np.abs(run.theta[:, 1] - slope)

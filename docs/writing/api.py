@@ -74,7 +74,10 @@ MODULES = (
             ("Choosing settings", ("tune", "tune_arx", "Tuning")),
             ("Many streams", ("Fleet", "FleetUpdate", "FleetHealth")),
             ("Errors and codes", ("InvalidInput", "NumericalRange", "GATE", "SKIPPED")),
-            ("Choices", tuple(n for a in AXES.values() for n in (a.kind.__name__, a.name, a.plural))),
+            (
+                "Choices",
+                tuple(n for a in AXES.values() for n in (a.kind.__name__, a.name, a.plural)),
+            ),
         ),
     ),
     Module("forgetting.models", "Models"),
@@ -100,8 +103,8 @@ MODULES = (
 OURS = ("forgetting", "builtins", "functools")
 """Modules of what is this package's in a class; the compiled classes say `builtins`."""
 DATA = {
-    "GATE": "What a gate says, by the code that ``run.gate`` has: update, freeze or hold.",
-    "SKIPPED": "Why a sample was left out, by the code that ``run.skipped`` has; None: it was used.",
+    "GATE": "What a gate says, by the code in ``run.gate``: update, freeze or hold.",
+    "SKIPPED": "Why a sample was left out, by the code in ``run.skipped``; None: it was used.",
     "PALETTE": "Colours that the colour-blind can tell apart, as hexadecimal text.",
     "PAPERS": "Titles of the papers, by their short names.",
     "SEEDS": "Noise realisations of a Monte Carlo claim where the number is not given.",
@@ -109,7 +112,18 @@ DATA = {
     "Severity": "How much a finding weighs: a word, one of those that `Finding` lists.",
 }
 """What is neither a class nor a function, in a sentence."""
-INTERNAL = ("_core", "choice", "choices", "cli", "extras", "fleet", "health", "meter", "registry", "words")
+INTERNAL = (
+    "_core",
+    "choice",
+    "choices",
+    "cli",
+    "extras",
+    "fleet",
+    "health",
+    "meter",
+    "registry",
+    "words",
+)
 """Modules that users do not import from: what is public of them is in `forgetting`."""
 
 
@@ -147,7 +161,9 @@ def entry(module: str, name: str) -> str:
 def members(kind: type) -> str:
     """The public members of a class that are this package's; its bases may be another's."""
     bases = [each for each in kind.__mro__ if each.__module__.startswith(OURS)]
-    found = {name: value for each in bases if each is not object for name, value in vars(each).items()}
+    found = {
+        name: value for each in bases if each is not object for name, value in vars(each).items()
+    }
     return ", ".join(
         name
         for name, value in found.items()
@@ -179,7 +195,7 @@ def first(module: str) -> str:
 OVERVIEW = """Python
 ======
 
-``import forgetting as fg`` brings the estimators and every choice; the other modules are imported by
+``import forgetting as fg`` brings the estimators and every choice; other modules are imported by
 their names, and only when they are used. Rules, rates, weightings, gates and mixers are classes of
 ``forgetting`` and have a page each: :doc:`../rules/index`, :doc:`../rates/index`,
 :doc:`../weightings/index`, :doc:`../gates/index`, :doc:`../mixers/index`. The index of all names is

@@ -93,7 +93,7 @@ def properties(axis: Axis, head: Header, names: tuple[str, ...]) -> list[str]:
 def python(axis: Axis, about: Mapping[str, Any], head: Header) -> list[str]:
     """The class, and an example with what it prints."""
     text = example.code(axis.name, about)
-    name = f"Its registry name is `{about['name']}`, as in `fg.{axis.name}(\"{about['name']}\")`."
+    name = f'Its registry name is `{about["name"]}`, as in `fg.{axis.name}("{about["name"]}")`.'
     return [
         "## In Python",
         signature(axis, about, head),
@@ -173,4 +173,3 @@ def listed(items: Any) -> str:
 def capital(text: str) -> str:
     """The text as the beginning of a sentence."""
     return text[:1].upper() + text[1:]
-

@@ -1,4 +1,4 @@
-"""The pages of the command: every option as the command itself has it, and runs with their output."""
+"""The pages of the command: every option as the command has it, and runs with their output."""
 
 from __future__ import annotations
 

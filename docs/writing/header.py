@@ -1,4 +1,4 @@
-"""The head of a Rust file, taken apart: the documentation of a rule, rate, weighting, gate, mixer."""
+"""The head of a Rust file, which is the documentation of a rule or the like, taken apart."""
 
 from __future__ import annotations
 
@@ -49,9 +49,9 @@ def parsed(text: str) -> Header:
 
     Examples
     --------
-    >>> head = parsed("Forgets.\\n\\n```text\\nF = 0\\n```\\n\\n- Cost: O(n).\\n- Use it\\n  always.")
+    >>> head = parsed("Forgets.\\n\\n```text\\nF = 0\\n```\\n\\n- Cost: O(n).\\n- Use it\\n  now.")
     >>> head.summary, head.equations, head.cost, head.use
-    ('Forgets.', ['F = 0'], ['Cost: O(n).'], ['Use it always.'])
+    ('Forgets.', ['F = 0'], ['Cost: O(n).'], ['Use it now.'])
     """
     head = Header()
     for part in re.split(r"\n\s*\n", text.strip()):

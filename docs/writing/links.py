@@ -1,4 +1,4 @@
-"""Finds dead links in the built pages: files that are not there, anchors that no page has, networks.
+"""Finds dead links in the built pages: no such file, no such anchor, or loaded from a network.
 
     python -m writing.links _build
 

@@ -1,4 +1,4 @@
-"""The playground, a page of its own beside these: linked from the front page where it has been built."""
+"""The playground, a page of its own: linked from the front page where it has been built."""
 
 from __future__ import annotations
 

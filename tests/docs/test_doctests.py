@@ -10,7 +10,9 @@ import pytest
 import writing
 
 MODULES = [
-    module.name for module in pkgutil.walk_packages(writing.__path__, "writing.") if not module.ispkg
+    module.name
+    for module in pkgutil.walk_packages(writing.__path__, "writing.")
+    if not module.ispkg
 ]
 
 

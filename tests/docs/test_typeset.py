@@ -92,7 +92,7 @@ def test_formula(plain, latex):
 
 @pytest.mark.parametrize("plain", ["x ☃ y", "√(1 − λ", "a_ b"])
 def test_what_cannot_be_translated_is_an_error(plain):
-    with pytest.raises(ValueError, match="translation|closed|below"):
+    with pytest.raises(ValueError, match=r"translation|closed|below"):
         formula(plain)
 
 

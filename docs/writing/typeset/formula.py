@@ -180,8 +180,9 @@ class _Reader:
                 primes += "'"
             else:
                 (above if sign in ABOVE else below).append({**ABOVE, **BELOW}[sign])
-        scripts = "".join(f"{mark}{{{''.join(part)}}}" for mark, part in
-                          (("_", below), ("^", above)) if part)
+        scripts = "".join(
+            f"{mark}{{{''.join(part)}}}" for mark, part in (("_", below), ("^", above)) if part
+        )
         return primes + scripts
 
     def below(self) -> str:

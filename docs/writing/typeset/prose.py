@@ -47,8 +47,9 @@ def prose(text: str, names: tuple[str, ...] = ()) -> str:
     by $\\min(1/(\\beta + 1/\\text{floor}), 1)$ if $n$ is small.
     """
     parts = PROTECTED.split(SIZES.sub(" × ", text))
-    return "".join(part if number % 2 else _sentence(part, names)
-                   for number, part in enumerate(parts))
+    return "".join(
+        part if number % 2 else _sentence(part, names) for number, part in enumerate(parts)
+    )
 
 
 def _sentence(text: str, names: tuple[str, ...]) -> str:
@@ -107,7 +108,7 @@ def _finished(run: list[str]) -> list[str]:
     if not core:
         return [text]
     before, core, after = _without_punctuation(core)
-    space = text[len(text.rstrip()):]
+    space = text[len(text.rstrip()) :]
     if not _means(core):
         return [text]
     return [f"{before}${formula(core)}${after}{space}"]
@@ -116,7 +117,9 @@ def _finished(run: list[str]) -> list[str]:
 def _without_punctuation(text: str) -> tuple[str, str, str]:
     """What stands before a formula, the formula, and what stands behind it."""
     before, after = "", ""
-    while text and text[-1] in ENDS + ")" and (text[-1] != ")" or text.count("(") < text.count(")")):
+    while (
+        text and text[-1] in ENDS + ")" and (text[-1] != ")" or text.count("(") < text.count(")"))
+    ):
         text, after = text[:-1], text[-1] + after
     while text.startswith("(") and text.count("(") > text.count(")"):
         text, before = text[1:], before + "("
