@@ -6,7 +6,8 @@ import importlib
 import pkgutil
 
 import pytest
-from writing.api import CLASSES, INTERNAL, MODULES, entry, page
+from writing.api import entry, page
+from writing.modules import CLASSES, INTERNAL, MODULES
 
 import forgetting
 

@@ -6,7 +6,7 @@ import re
 
 import pytest
 import typer.main
-from writing import command
+from writing import command, runs
 
 from forgetting.cli.app import app
 
@@ -14,8 +14,8 @@ COMMANDS = typer.main.get_command(app).commands
 
 
 def test_every_command_is_run():
-    assert COMMANDS.keys() == command.RUNS.keys()
-    for name, lines in command.RUNS.items():
+    assert COMMANDS.keys() == runs.RUNS.keys()
+    for name, lines in runs.RUNS.items():
         assert lines and all(f"forgetting {name}" in line for line in lines)
 
 
@@ -30,7 +30,7 @@ def test_every_option_is_shown_with_its_words(name):
 
 
 def test_a_line_that_fails_stops_the_build(tmp_path):
-    command.prepare(tmp_path)
-    assert command.printed("forgetting --version", tmp_path).startswith("forgetting ")
+    runs.prepare(tmp_path)
+    assert runs.printed("forgetting --version", tmp_path).startswith("forgetting ")
     with pytest.raises(RuntimeError, match=r"gone\.csv"):
-        command.printed("forgetting identify gone.csv --formula 'y ~ x'", tmp_path)
+        runs.printed("forgetting identify gone.csv --formula 'y ~ x'", tmp_path)
