@@ -42,7 +42,6 @@ html_css_files = ["katex/katex.min.css", "pages.css"]
 html_js_files = ["katex/katex.min.js", "formulas.js"]
 html_math_renderer = "katex"
 html_copy_source = False
-smartquotes = False  # --rule stays --rule
 html_show_sphinx = False
 pygments_style = "friendly"
 pygments_dark_style = "native"

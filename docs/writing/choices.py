@@ -76,7 +76,9 @@ def use(axis: Axis, head: Header, about: Mapping[str, Any], names: tuple[str, ..
 
 def equations(head: Header, names: tuple[str, ...]) -> list[str]:
     """The formulas and what belongs to them."""
-    around = [prose(each, names) for each in head.paragraphs]
+    around = [
+        "\n".join(prose(line, names) for line in each.split("\n")) for each in head.paragraphs
+    ]
     return ["## Equations", block(head.equations, names), *around]
 
 

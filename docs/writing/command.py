@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -93,8 +94,9 @@ def kind(each: Any) -> str:
 
 
 def plain(text: str) -> str:
-    """Help as Markdown."""
-    return text.replace("*", r"\*").replace("<", r"\<").strip()
+    """Help as Markdown, names of options as code."""
+    text = text.replace("*", r"\*").replace("<", r"\<").strip()
+    return re.sub(r"(?<![\w`-])--?[a-z][a-z-]*", r"`\g<0>`", text)
 
 
 def overview(commands: Any) -> str:

@@ -26,7 +26,7 @@ class Header:
     use, not_use, guarantees, cost, notes : list of str
         The items of the list.
     paragraphs : list of str
-        What stands outside the list.
+        What stands outside that list: sentences, or another list.
     reference : str
         Where it comes from.
     """
@@ -63,8 +63,7 @@ def parsed(text: str) -> Header:
         elif lines[0].startswith("|"):
             _table(head, lines[2:])
         elif lines[0].startswith("- "):
-            for item in _items(lines):
-                _place(head, item)
+            _list(head, _items(lines))
         elif lines[0].startswith(REFERENCE):
             head.reference = " ".join(lines).removeprefix(REFERENCE).strip()
         else:
@@ -88,6 +87,15 @@ def _items(lines: list[str]) -> list[str]:
         else:
             items[-1] += f" {line.strip()}"
     return items
+
+
+def _list(head: Header, items: list[str]) -> None:
+    """Put each item where it belongs; a list before that of the properties stays as it is."""
+    if any(item.startswith(COST) for item in items):
+        for item in items:
+            _place(head, item)
+    else:
+        head.paragraphs.append("\n".join(f"- {item}" for item in items))
 
 
 def _place(head: Header, item: str) -> None:

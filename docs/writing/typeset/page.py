@@ -21,8 +21,8 @@ def page(text: str) -> str:
 
     Examples
     --------
-    >>> print(page("| P\\\\_k⁻¹ ≤ 2 | falls from 3 to 1 |"))
-    | $P_{k}^{-1} \\le  2$ | falls from 3 to 1 |
+    >>> print(page("| Example 1 | P\\\\_k⁻¹ ≤ 2 | falls from 3 to 1 |"))
+    | Example 1 | $P_{k}^{-1} \\le  2$ | falls from 3 to 1 |
     """
     return "\n".join(_line(line) for line in text.split("\n"))
 
@@ -30,7 +30,9 @@ def page(text: str) -> str:
 def _line(line: str) -> str:
     if line.startswith(("#", "    ", "|---", "```")):
         return line
-    return "|".join(_cell(cell) for cell in CELL.split(line))
+    cells = CELL.split(line)
+    first = 2 if len(cells) > 1 else 0  # the first column names a source
+    return "|".join([*cells[:first], *map(_cell, cells[first:])])
 
 
 def _cell(cell: str) -> str:
