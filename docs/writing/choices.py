@@ -11,7 +11,7 @@ from forgetting.choices import Axis
 
 from . import example, figure
 from .advice import when_not
-from .header import USE, Header, parsed
+from .header import Header, parsed
 from .shown import made
 from .typeset import block, formula, prose
 from .write import write
@@ -68,7 +68,7 @@ def picture(axis: Axis, about: Mapping[str, Any]) -> str:
 
 def use(axis: Axis, head: Header, about: Mapping[str, Any], names: tuple[str, ...]) -> list[str]:
     """When to use it, and when not."""
-    good = [prose(capital(item.removeprefix(USE).strip()), names) for item in head.use]
+    good = [prose(item, names) for item in head.use]
     bad = [prose(item, names) for item in (*head.not_use, *when_not(axis.name, about))]
     parts = ["## When to use it", "\n\n".join(good)] if good else []
     return [*parts, *(["**When not**", listed(bad)] if bad else [])]
@@ -170,8 +170,3 @@ def card(about: Mapping[str, Any]) -> str:
 def listed(items: Any) -> str:
     """A list in Markdown."""
     return "\n".join(f"- {item}" for item in items)
-
-
-def capital(text: str) -> str:
-    """The text as the beginning of a sentence."""
-    return text[:1].upper() + text[1:]
