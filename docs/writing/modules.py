@@ -63,9 +63,12 @@ MODULES = (
         "forgetting",
         (
             ("One estimator", ("RLS", "Update", "Run", "Evidence")),
-            ("How far to trust it", ("Health", "ExcitationMeter")),
+            ("How far to trust it", ("Health", "ExcitationMeter", "Intervals", "bounded")),
             ("Several on one stream", ("Bank", "BankUpdate")),
-            ("Dynamic models", ("ARX",)),
+            (
+                "Dynamic models",
+                ("ARX", "FIR", "AR", "ARMA", "ARMAX", "OE", "BJ", "PolynomialModel"),
+            ),
             ("Choosing settings", ("tune", "tune_arx", "Tuning")),
             ("Many streams", ("Fleet", "FleetUpdate", "FleetHealth")),
             ("Errors and codes", ("InvalidInput", "NumericalRange", "GATE", "SKIPPED")),
@@ -76,6 +79,7 @@ MODULES = (
         ),
     ),
     Module("forgetting.models", "Models"),
+    Module("forgetting.polynomials", "Polynomial models"),
     Module("forgetting.tuning", "Tuning"),
     Module("forgetting.record", "Records"),
     Module("forgetting.judgement", "Judgement"),
