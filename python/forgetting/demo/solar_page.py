@@ -69,7 +69,7 @@ def page(found: Found) -> Page:
 
 def widest(found: Identification) -> float:
     """Largest standard error of the gain after the first day, W per W/m²."""
-    return float(found.standard_error[DAY:, 0, 0].max())
+    return float(found.standard_error_of(0)[DAY:].max())
 
 
 def table(found: Found) -> Block:

@@ -13,12 +13,14 @@ from numpy.typing import ArrayLike, NDArray
 import forgetting as fg
 from forgetting.record.dynamics import dynamics
 from forgetting.record.feedback import Feedback, feedback
+from forgetting.record.formats.columnar import release
 from forgetting.record.half_life import with_half_life
 from forgetting.record.identification import Identification
 from forgetting.record.judge import Judged, judge, settled
 from forgetting.record.missing import Words
+from forgetting.record.moved import Moved
 from forgetting.record.names import clean
-from forgetting.record.origin import origin
+from forgetting.record.origin import constants, origin
 from forgetting.record.read import Record, read
 from forgetting.record.remembered import remembered
 from forgetting.record.samples import Samples
@@ -112,6 +114,7 @@ def identify(
     source = read(record, time, gap=gap, missing=missing)
     samples = build(source, formula, listed(output), listed(input), arx, offset)
     del record, source  # the table, which nobody else may hold, is as large as what is made of it
+    release()
     time_of: NDArray[np.float64] | None = None
     if half_life is not None:
         rule, time_of = with_half_life(rule, half_life, samples)
@@ -155,7 +158,7 @@ def identify(
 
 
 def errors_without_inputs(
-    samples: Samples,
+    samples: Moved,
     past: Feedback,
     rule: Any,
     gate: Any,
@@ -167,17 +170,16 @@ def errors_without_inputs(
     None where that is the model itself, where there are no past outputs, where the rule has
     settings for each parameter, or where a function of the user's would be called once more.
     """
-    phi = samples.known
-    kept = [i for i in range(phi.shape[1]) if i in past.lags or (phi[:, i] == phi[0, i]).all()]
+    constant = constants(samples)
+    kept = [i for i in range(samples.parameters) if i in past.lags or constant[i]]
     functions = "<" in f"{rule!r} {gate!r}"
-    if not past.lags or len(kept) == phi.shape[1] or functions:
+    if not past.lags or len(kept) == samples.parameters or functions:
         return None
     try:
         estimator = estimator_for(len(kept), rule, gate=gate, **settings)
     except fg.InvalidInput:
         return None
-    part = replace(samples, phi=np.ascontiguousarray(samples.phi[:, kept]))
-    return errors_of(estimator, part, settings["dtype"], time)
+    return errors_of(estimator, replace(samples, columns=kept), time)
 
 
 def estimator_for(parameters: int, rule: Any, **settings: Any) -> Any:

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 import forgetting as fg
 from forgetting.record.half_life import LastTime
-from forgetting.record.samples import Samples
+from forgetting.record.moved import Moved, as_run
+from forgetting.record.samples import pieces
 
 Array = NDArray[np.float64]
 Progress = Callable[[int, int], None]
@@ -94,7 +95,7 @@ class Trace:
 
 def run(
     estimator: Any,
-    samples: Samples,
+    samples: Moved,
     progress: Progress | None = None,
     time: Array | None = None,
 ) -> Trace:
@@ -102,21 +103,17 @@ def run(
 
     With the ``time`` of each, (T,), forgetting counts time in place of samples.
     """
-    dtype = np.dtype(estimator.dtype)
-    phi = np.ascontiguousarray(samples.phi, dtype=dtype)
-    y = np.ascontiguousarray(samples.y if samples.y.shape[1] > 1 else samples.y[:, 0], dtype=dtype)
-    total = len(y)
+    total, n = len(samples), samples.parameters
     last = LastTime()
-    history = History(samples, isinstance(estimator, fg.Bank))
+    history = History(total, n, samples.targets, isinstance(estimator, fg.Bank))
     rows: list[int] = []
     covariances: list[NDArray[Any]] = []
-    for start, stop in chunks(total, phi.shape[1]):
+    for start, stop in chunks(total, n):
+        part = slice(start, stop)
         try:
-            part = slice(start, stop)
+            phi, y = as_run(*samples.rows(part), estimator.dtype)
             when = None if time is None else last.ahead_of(time[part])
-            piece = estimator.run(
-                phi[part], y[part], outputs=tuple(history.names), missing="skip", time=when
-            )
+            piece = estimator.run(phi, y, outputs=tuple(history.names), missing="skip", time=when)
         except (fg.InvalidInput, fg.NumericalRange) as error:
             raise type(error)(in_rows(str(error), start)) from None
         if time is not None:
@@ -127,7 +124,7 @@ def run(
         if progress is not None:
             progress(stop, total)
     # all in the units of the end: those of before would show as steps
-    units = np.ones(phi.shape[1]) if estimator.units is None else estimator.units
+    units = np.ones(n) if estimator.units is None else estimator.units
     path = np.array(covariances)
     return Trace(
         **history.arrays,
@@ -142,8 +139,7 @@ def run(
 class History:
     """What a run keeps of every sample, filled piece by piece: nothing is there twice."""
 
-    def __init__(self, samples: Samples, bank: bool) -> None:
-        total, outputs, n = len(samples.y), samples.y.shape[1], samples.phi.shape[1]
+    def __init__(self, total: int, n: int, outputs: int, bank: bool) -> None:
         shapes = {"theta": (total, n, outputs), "error": (total, outputs), "variance": (total, n)}
         kinds: dict[str, Any] = {"skipped": np.uint8, "gate": np.uint8, "windup": np.bool_}
         self.names = (*HISTORY, "memory") if bank else HISTORY
@@ -179,15 +175,20 @@ def chunks(total: int, parameters: int) -> list[tuple[int, int]]:
     return [(start, min(start + length, total)) for start in range(0, total, length)]
 
 
-def errors_without_forgetting(samples: Samples, settings: dict[str, Any]) -> Array:
+def errors_without_forgetting(samples: Moved, settings: dict[str, Any]) -> Array:
     """One-step errors (T, m) of the same model with the rule that never forgets."""
-    estimator = fg.RLS(samples.phi.shape[1], rule=fg.rule("none"), **settings)
-    return errors_of(estimator, samples, settings["dtype"])
+    estimator = fg.RLS(samples.parameters, rule=fg.rule("none"), **settings)
+    return errors_of(estimator, samples)
 
 
-def errors_of(estimator: Any, samples: Samples, dtype: str, time: Array | None = None) -> Array:
+def errors_of(estimator: Any, samples: Moved, time: Array | None = None) -> Array:
     """One-step errors (T, m) of an estimator over all samples; `time` (T,) if it counts."""
-    y = samples.y if samples.y.shape[1] > 1 else samples.y[:, 0]
-    phi, y = (np.ascontiguousarray(each, dtype=dtype) for each in (samples.phi, y))
-    result = estimator.run(phi, y, outputs=("error",), missing="skip", time=time)
-    return np.asarray(result.error, dtype=np.float64).reshape(samples.y.shape)
+    errors, last = np.empty((len(samples), samples.targets)), LastTime()
+    for part in pieces(len(samples)):
+        phi, y = as_run(*samples.rows(part), estimator.dtype)
+        when = None if time is None else last.ahead_of(time[part])
+        found = estimator.run(phi, y, outputs=("error",), missing="skip", time=when)
+        errors[part] = np.asarray(found.error).reshape(len(y), -1)
+        if time is not None:
+            last.note(time[part], samples.complete[part])
+    return errors

@@ -44,6 +44,6 @@ def noise_variance(trace: Trace) -> Array:
     return np.where(count > 0, total / np.maximum(count, 1), np.nan)
 
 
-def standard_errors(trace: Trace) -> Array:
-    """Standard error of every parameter after every sample, (T, n, m)."""
-    return np.sqrt(trace.variance[:, :, None] * noise_variance(trace)[:, None, :])
+def standard_errors(variance: Array, noise_variance: Array) -> Array:
+    """Standard errors of parameters by their variances in P, as it was after the same samples."""
+    return np.asarray(np.sqrt(variance * noise_variance))

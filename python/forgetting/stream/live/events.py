@@ -114,9 +114,7 @@ class Events:
         units = {} if form is None else form.units
         several = len(model.outputs) > 1
         names = [
-            with_unit(
-                f"{output}: {name}" if several else name, parameter_unit(output, name, units)
-            )
+            with_unit(f"{output}: {name}" if several else name, parameter_unit(output, name, units))
             for output in model.outputs
             for name in model.regressors
         ]
