@@ -18,11 +18,14 @@ from forgetting.judgement import Judgement
 from forgetting.record import estimates
 from forgetting.record.counts import Counts
 from forgetting.record.drift import Drift, claim, drift
+from forgetting.record.memories import Memories, memories
+from forgetting.record.origin import origin
 from forgetting.record.samples import Samples, pieces
 from forgetting.record.scores import Scores
 from forgetting.record.trace import USED
 from forgetting.record.uncertainty import noise_variance, standard_errors
 from forgetting.record.units import parameter_unit
+from forgetting.words.duration import spoken
 
 Array = NDArray[np.float64]
 
@@ -40,7 +43,9 @@ class Identification(Counts):
     samples : Samples
         Regressors and outputs as they entered the estimator.
     rule : Rule
-        The forgetting rule.
+        The forgetting rule; of a bank that of the member most believed at the end.
+    members : list of Rule
+        Of a bank; empty for a rule.
     scores : Scores
         One-step errors of the model and of baselines, on the same samples.
     judgement : Judgement
@@ -63,6 +68,7 @@ class Identification(Counts):
     initial_covariance: Array
     units: Array
     settings: dict[str, Any]
+    members: list[Any]
 
     @cached_property
     def noise_variance(self) -> Array:
@@ -132,6 +138,14 @@ class Identification(Counts):
         spread = 1 + self.trace.leverage[last] * (self.trace.weights is None)
         return np.asarray(np.sqrt(np.mean(self.trace.error[last] ** 2 / spread[:, None], axis=0)))
 
+    @cached_property
+    def memories(self) -> Memories | None:
+        """Which memories fitted when: how fast the parameters change; None for a single rule."""
+        if self.trace.weights is None:
+            return None
+        moved = origin(self.samples, self.settings["initial_covariance"] is None)
+        return memories(moved.moved(self.samples), self.trace, self.members, self.settings)
+
     @property
     def theta(self) -> Array:
         """Estimate after each sample, (T, n, m)."""
@@ -188,7 +202,11 @@ class Identification(Counts):
         if self.trace.weights is None or self.trace.memory is None:
             return repr(self.rule)
         memory = self.trace.memory[-1]
-        length = f"{memory:.3g} samples" if np.isfinite(memory) else "the whole record"
+        length = "the whole record"
+        if np.isfinite(memory):
+            step = self.samples.usual_step
+            time = "" if step is None else f" ({spoken(float(memory) * step)})"
+            length = f"{memory:.3g} samples{time}"
         return f"bank of {len(self.trace.weights)} members, at the end with a memory of {length}"
 
     def final(self) -> list[tuple[str, str, float, float]]:
@@ -254,6 +272,7 @@ class Identification(Counts):
             "clock": self.samples.clock_as_data(),
             "noise": dict(zip(self.samples.outputs, self.noise.tolist(), strict=True)),
             "memory": self.memory,
+            "memories": None if self.memories is None else self.memories.to_dict(),
             "samples": self.counts() | {"scored": self.scores.samples},
             "covariance": {
                 "smallest_eigenvalue": float(ends[0]),

@@ -14,7 +14,7 @@ import forgetting as fg
 from forgetting.record.dynamics import dynamics
 from forgetting.record.feedback import Feedback, feedback
 from forgetting.record.formats.columnar import release
-from forgetting.record.half_life import with_half_life
+from forgetting.record.half_life import with_time
 from forgetting.record.identification import Identification
 from forgetting.record.judge import Judged, judge, settled
 from forgetting.record.missing import Words
@@ -42,6 +42,7 @@ def identify(
     offset: bool = True,
     rule: Any = "auto",
     half_life: Any = None,
+    by_clock: bool = False,
     gate: Any = None,
     initial_covariance: ArrayLike | None = None,
     dtype: str = "float64",
@@ -68,6 +69,9 @@ def identify(
         In the place of the rule's forgetting factor: after this time half of what is known is
         forgotten. A number counts samples, "10min" or a duration counts by the clock, whatever the
         steps between samples; one gap forgets ten half-lives at most.
+    by_clock : bool
+        Whether forgetting counts time in place of samples, also of the bank: a sample that comes
+        after three usual steps of the clock is forgotten for like three.
     gate : str, Gate or callable, optional
         Whether a sample is used; see `forgetting.gates`.
     initial_covariance : float or array_like, optional
@@ -115,9 +119,7 @@ def identify(
     samples = build(source, formula, listed(output), listed(input), arx, offset)
     del record, source  # the table, which nobody else may hold, is as large as what is made of it
     release()
-    time_of: NDArray[np.float64] | None = None
-    if half_life is not None:
-        rule, time_of = with_half_life(rule, half_life, samples)
+    rule, time_of = with_time(rule, half_life, by_clock, samples)
     settings: dict[str, Any] = {
         "targets": samples.y.shape[1],
         "initial_covariance": initial_covariance,
@@ -154,6 +156,7 @@ def identify(
         initial_covariance=initial,
         units=np.asarray(units, dtype=np.float64),
         settings=settings,
+        members=estimator.members if isinstance(estimator, fg.Bank) else [],
     )
 
 

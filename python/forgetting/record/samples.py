@@ -67,6 +67,12 @@ class Samples:
             whole = slice(None) if complete.all() else complete
             yield self.phi[part][whole], self.y[part][whole]
 
+    @property
+    def usual_step(self) -> float | None:
+        """Seconds from row to row, typically; None without a clock that goes on."""
+        step = np.inf if self.clock is None else self.clock.usual_step
+        return step if np.isfinite(step) else None
+
     def check(self) -> Samples:
         """Refuse infinite regressors and a record in which no sample is complete."""
         infinite = np.argwhere(np.isinf(self.phi))

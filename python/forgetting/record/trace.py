@@ -73,6 +73,9 @@ class Trace:
         Of a bank: over how many samples it remembers.
     weights : ndarray, shape (members,), or None
         Of a bank: how far each member is believed at the end.
+    weights_path : ndarray, shape (K, members), or None
+        Of a bank: the weights, on average over each piece of the record that ends with one of
+        `rows`.
     covariance : ndarray, shape (n, n)
         P after the last sample.
     """
@@ -91,6 +94,7 @@ class Trace:
     covariance: Array
     memory: Array | None = None
     weights: Array | None = None
+    weights_path: Array | None = None
 
 
 def run(
@@ -113,7 +117,7 @@ def run(
         try:
             phi, y = as_run(*samples.rows(part), estimator.dtype)
             when = None if time is None else last.ahead_of(time[part])
-            piece = estimator.run(phi, y, outputs=tuple(history.names), missing="skip", time=when)
+            piece = estimator.run(phi, y, outputs=history.outputs, missing="skip", time=when)
         except (fg.InvalidInput, fg.NumericalRange) as error:
             raise type(error)(in_rows(str(error), start)) from None
         if time is not None:
@@ -129,6 +133,7 @@ def run(
     return Trace(
         **history.arrays,
         weights=np.asarray(estimator.weights) if isinstance(estimator, fg.Bank) else None,
+        weights_path=np.array(history.weights) if history.bank else None,
         rows=np.array(rows),
         eigenvalues=np.linalg.eigvalsh(path * np.outer(units, units)),
         covariances=path,
@@ -142,14 +147,23 @@ class History:
     def __init__(self, total: int, n: int, outputs: int, bank: bool) -> None:
         shapes = {"theta": (total, n, outputs), "error": (total, outputs), "variance": (total, n)}
         kinds: dict[str, Any] = {"skipped": np.uint8, "gate": np.uint8, "windup": np.bool_}
+        self.bank = bank
         self.names = (*HISTORY, "memory") if bank else HISTORY
+        self.weights: list[Array] = []
         self.arrays: dict[str, Any] = {
             name: np.empty(shapes.get(name, (total,)), dtype=kinds.get(name, np.float64))
             for name in self.names
         }
 
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        """What a run is asked for."""
+        return (*self.names, "weights") if self.bank else self.names
+
     def put(self, start: int, stop: int, piece: Any) -> None:
         """Put what a piece of the run kept in its place."""
+        if self.bank:
+            self.weights.append(np.asarray(piece.weights, dtype=np.float64).mean(axis=0))
         for name in self.names:
             place = self.arrays[name][start:stop]
             place[...] = getattr(piece, name).reshape(place.shape)
