@@ -10,11 +10,11 @@ from numpy.typing import ArrayLike
 
 import forgetting as fg
 from forgetting.record.comparison import Compared, Comparison
-from forgetting.record.formats.columnar import release
 from forgetting.record.identify import build, listed
 from forgetting.record.origin import origin
 from forgetting.record.ranking import Whole, over_all
 from forgetting.record.read import Record
+from forgetting.record.release import release
 from forgetting.record.samples import Samples
 from forgetting.record.scores import scored_samples
 from forgetting.record.tune import problem
@@ -85,7 +85,7 @@ def compare(
     """
     samples = build(record, formula, listed(output), listed(input), arx, offset)
     del record  # the table, which nobody else may hold, is as large as what is made of it
-    release()
+    release(len(samples.y))
     whole = problem(samples)
     parts = split(whole, share)
     part, choosing = choosing_part(whole, parts)

@@ -13,7 +13,6 @@ from numpy.typing import ArrayLike, NDArray
 import forgetting as fg
 from forgetting.record.dynamics import dynamics
 from forgetting.record.feedback import Feedback, feedback
-from forgetting.record.formats.columnar import release
 from forgetting.record.half_life import with_time
 from forgetting.record.identification import Identification
 from forgetting.record.judge import Judged, judge, settled
@@ -22,6 +21,7 @@ from forgetting.record.moved import Moved
 from forgetting.record.names import clean
 from forgetting.record.origin import constants, origin
 from forgetting.record.read import Record, read
+from forgetting.record.release import release
 from forgetting.record.remembered import remembered
 from forgetting.record.samples import Samples
 from forgetting.record.scores import score
@@ -118,7 +118,7 @@ def identify(
     source = read(record, time, gap=gap, missing=missing)
     samples = build(source, formula, listed(output), listed(input), arx, offset)
     del record, source  # the table, which nobody else may hold, is as large as what is made of it
-    release()
+    release(len(samples.y))
     rule, time_of = with_time(rule, half_life, by_clock, samples)
     settings: dict[str, Any] = {
         "targets": samples.y.shape[1],

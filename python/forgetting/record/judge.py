@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -151,8 +151,8 @@ def of_outputs(judged: Judged) -> Iterator[Finding | None]:
     settled, trace = judged.settled, judged.trace
     if trace.weights is not None:  # P of members that do not count swells the leverage of a bank
         trace = replace(trace, leverage=np.zeros_like(trace.leverage))
-    noise = noise_variance(trace)
-    before = np.vstack([np.full((1, noise.shape[1]), np.nan), noise[:-1]])
+    noise = np.full_like(trace.error, np.nan)
+    noise[1:] = noise_variance(trace)[:-1]  # before each sample
     spread = np.sqrt(1 + trace.leverage)
     for j, name in enumerate(judged.samples.outputs):
         yield beside(judged.scores, j, name)
@@ -160,7 +160,7 @@ def of_outputs(judged: Judged) -> Iterator[Finding | None]:
             yield Finding("residuals", "good", f"The one-step errors of {name} are negligible.")
             continue
         error = np.where(settled, trace.error[:, j], np.nan)
-        yield accuracy.intervals(error, spread * np.sqrt(before[:, j]), name)
+        yield accuracy.intervals(error, spread * np.sqrt(noise[:, j]), name)
         deep = judged.feedback.deepest
         past = residuals.own_past(error / spread, deep)
         yield residuals.whiteness(past, name, deep)
@@ -181,13 +181,11 @@ def negligible(scores: Scores, j: int) -> bool:
     return not scores.model[j] > ROUNDING * min(scores.last_value[j], scores.mean[j])
 
 
-def signals(judged: Judged) -> Mapping[str, Array]:
-    """The regressors that are inputs and move, by name."""
-    made: dict[str, Array] = {}
-    for column, name in enumerate(judged.samples.regressors):
-        if column not in judged.feedback.lags and len(made) < MOST_INPUTS:
-            made[name] = judged.samples.column(column)
-    return made
+def signals(judged: Judged) -> Iterator[tuple[str, Array]]:
+    """The regressors that are inputs and move, by name, one after the other."""
+    places = [i for i in range(judged.parameters) if i not in judged.feedback.lags]
+    for place in places[:MOST_INPUTS]:
+        yield judged.samples.regressors[place], judged.samples.column(place)
 
 
 def stability(judged: Judged) -> Finding | None:

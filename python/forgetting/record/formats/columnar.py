@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -66,10 +65,3 @@ def whole(module: str, function: str, source: Any, name: str, kind: str) -> pd.D
     except (OSError, ValueError, TypeError) as error:
         raise RecordError(f"{name} is no {kind} file: {first_line(error)}") from None
     return frame
-
-
-def release() -> None:
-    """Give the system back what Arrow keeps of memory that nobody uses."""
-    arrow = sys.modules.get("pyarrow")
-    if arrow is not None:
-        arrow.default_memory_pool().release_unused()
