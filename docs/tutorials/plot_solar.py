@@ -14,7 +14,8 @@ from forgetting.demo.solar import identified, solar_record
 from forgetting.plot import eigenvalues, styled
 
 # %%
-# Three rules over the record, with a memory of under an hour:
+# The bank, which is told nothing, and three rules over the record, two of them with a memory of
+# under an hour:
 print(solar_record().frame.head(3))
 found = identified()
 for name, each in found.items():

@@ -109,6 +109,7 @@ def test_solar(tmp_path):
     outcome = solar(tmp_path)
     assert [path.name for path in outcome.files] == [
         "solar.html",
+        "solar-bank.html",
         "solar-none.html",
         "solar-exponential.html",
         "solar-subspace.html",
@@ -117,6 +118,7 @@ def test_solar(tmp_path):
     assert all(path.stat().st_size > 10_000 for path in outcome.files)
     found = identified()
     rmse = {name: each.scores.model[0] for name, each in found.items()}
+    assert rmse["bank"] < min(error for name, error in rmse.items() if name != "bank")
     # Independent NumPy recursion: 602.0, 210.6 and 233.5 W.
     assert rmse["none"] == pytest.approx(602.0, abs=0.1)
     assert rmse["exponential"] == pytest.approx(210.6, abs=0.1)

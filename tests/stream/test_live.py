@@ -61,6 +61,15 @@ def page() -> Iterator[Page]:
     made.server.stop()
 
 
+def test_names_have_units_where_the_stream_names_them():
+    stream = Stream(arx(), standard_errors=True)
+    head, *body = as_csv(plant(60)).splitlines(keepends=True)
+    stream.feed(b"".join([head, b"s,A,mV\n", *body]))
+    told = Events(stream).beginning(0)
+    assert told["parameters"] == ["y(k-1) [1]", "u(k-1) [mV/A]", "offset [mV]"]
+    assert told["outputs"] == ["y [mV]"]
+
+
 def test_files_of_the_page(page):
     for path, (_, kind) in FILES.items():
         with page.ask(path) as answer:

@@ -202,3 +202,52 @@ def test_names_with_signs_of_templates():
 def test_json_is_json():
     for line in fed(as_csv(plant(400)), arx()).lines:
         json.loads(line, parse_constant=lambda word: pytest.fail(word))
+
+
+UNITS = [b"s,A,V", b"[s],[A],[V]", b"s,1,V", b",A,V", b"s,-,"]
+
+
+@pytest.mark.parametrize("units", UNITS)
+@pytest.mark.parametrize("block", [1, 10_000])
+def test_a_row_of_units_is_kept_and_no_row(units, block):
+    head, *body = as_csv(plant(60)).splitlines(keepends=True)
+    lines = [head, units + b"\n", *body]
+    stream = Stream(arx(), "json", FIELDS)
+    made = [stream.feed(b"".join(lines[k : k + block])).lines for k in range(0, len(lines), block)]
+    expected = rows(fed(as_csv(plant(60)), arx(), FIELDS).lines)
+    assert rows([line for some in made for line in some]) == expected
+    bare = [cell.strip("[]") for cell in units.decode().split(",")]
+    known = {name: unit for name, unit in zip(("t_s", "u", "y"), bare, strict=True)}
+    assert stream.form.units == {n: unit for n, unit in known.items() if unit not in ("", "1", "-")}
+
+
+def test_the_row_of_units_says_what_the_clock_counts_in():
+    table = plant(60)
+    table[:, 0] *= 1000
+    head, *body = as_csv(table, "t,u,y").splitlines(keepends=True)
+    stream = fed(b"".join([head, b"ms,A,V\n", *body]), arx(time="t"))
+    assert stream.stamps.scale == 1e-3
+
+
+def test_units_come_again_with_the_names_of_a_further_file():
+    head, *body = as_csv(plant(60)).splitlines(keepends=True)
+    stream = Stream(arx(), "json", FIELDS)
+    made = stream.feed(b"".join([head, b"s,A,V\n", *body[:30]])).lines
+    stream.further_input()
+    made += stream.feed(b"".join([head, b"# next\n", b"s,A,V\n", *body[30:]])).lines
+    assert rows(made) == rows(fed(as_csv(plant(60)), arx(), FIELDS).lines)
+
+
+def test_a_saved_state_keeps_units():
+    head, *body = as_csv(plant(60)).splitlines(keepends=True)
+    first, second = Stream(arx(), "json", FIELDS), Stream(arx(), "json", FIELDS)
+    made = first.feed(b"".join([head, b"s,A,V\n", *body[:30]])).lines
+    second.restore(json.loads(json.dumps(first.state())))
+    made += second.feed(b"".join(body[30:])).lines
+    assert second.form.units == {"t_s": "s", "u": "A", "y": "V"}
+    assert rows(made) == rows(fed(as_csv(plant(60)), arx(), FIELDS).lines)
+
+
+def test_words_under_the_names_are_no_units():
+    with pytest.raises(RecordError, match="no numbers stand below it"):
+        fed(b"t_s,u,y\nfirst run,second run,third run\n0,1,2\n", arx())

@@ -11,6 +11,7 @@ with M the mean of φ̄ᵀφ̄ over the record and S_k that over the last N samp
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Any
@@ -21,6 +22,8 @@ from numpy.typing import ArrayLike, NDArray
 from .information import weighted
 from .validation import Array, real, whole
 
+#: Sums of φ̄ᵀφ̄ over samples, (n, n), by the first sample and the one behind the last.
+Information = Callable[[int, int], Array]
 #: Directions of the scaled regressors below this share of the largest are rounding.
 ROUNDING = 1e-12
 #: A parameter counts as informed while the unexcited directions make up no more than this share
@@ -125,16 +128,34 @@ def excited(
     (0.58, (59, 41))
     """
     phibar = weighted(regressors, gamma)
-    samples, _, n = phibar.shape
+    return excited_by(
+        lambda start, stop: _gram(phibar[start:stop]), len(phibar), window, share, most
+    )
+
+
+def excited_by(
+    information: Information, samples: int, window: int, share: float = 0.01, most: int = 1000
+) -> Excited:
+    """As `excited`, for a record that is only known by its information.
+
+    Parameters
+    ----------
+    information : callable
+        Σ φ̄ᵀφ̄, (n, n), of the samples from its first argument up to, without, its second.
+    samples : int
+        T.
+    window, share, most
+        See `excited`.
+    """
     window = whole("window", window, 1, samples)
     share = real("share", share, 0.0, 1.0, open_low=True)
     step = -(-samples // whole("most", most, 1))
     chosen = np.arange(samples - 1, -1, -step)[::-1]
-    root, never = _root(phibar)
+    root, never = _root(information(0, samples) / samples)
     whole_record = np.square(root).sum(axis=1)
-    trailing = _Trailing(phibar, chosen, window)
+    trailing = _Trailing(information, chosen, window)
     rank = np.empty(len(chosen), dtype=np.int64)
-    informed = np.empty((len(chosen), n), dtype=bool)
+    informed = np.empty((len(chosen), len(root)), dtype=bool)
     for place, k in enumerate(chosen):
         part = trailing.sum(place, k)
         values, vectors = np.linalg.eigh(root.T @ part @ root / window)
@@ -151,23 +172,23 @@ class _Trailing:
     Stretches between the chosen samples are summed once; a window is whole stretches and a rest.
     """
 
-    def __init__(self, phibar: Array, chosen: NDArray[np.int64], window: int) -> None:
-        self.phibar, self.chosen, self.window = phibar, chosen, window
+    def __init__(self, information: Information, chosen: NDArray[np.int64], window: int) -> None:
+        self.information, self.window = information, window
         edges = np.concatenate([[0], chosen + 1])
         short = window <= (edges[-1] - edges[-2])
         pairs = [] if short else pairwise(edges)
-        self.stretches = np.array([_gram(phibar[start:stop]) for start, stop in pairs])
+        self.stretches = np.array([information(start, stop) for start, stop in pairs])
         self.starts = edges[:-1]
 
     def sum(self, place: int, sample: int) -> Array:
         """Over the window that ends with `sample`, the chosen one at `place`."""
         first = max(0, sample - self.window + 1)
         if not len(self.stretches):
-            return _gram(self.phibar[first : sample + 1])
+            return self.information(first, sample + 1)
         whole = int(np.searchsorted(self.starts, first))
         if whole > place:  # the window begins within the last stretch
-            return _gram(self.phibar[first : sample + 1])
-        rest = _gram(self.phibar[first : self.starts[whole]])
+            return self.information(first, sample + 1)
+        rest = self.information(first, self.starts[whole])
         return np.asarray(rest + self.stretches[whole : place + 1].sum(axis=0))
 
 
@@ -177,9 +198,8 @@ def _gram(part: Array) -> Array:
     return np.asarray(rows.T @ rows)
 
 
-def _root(phibar: Array) -> tuple[Array, NDArray[np.bool_]]:
+def _root(mean: Array) -> tuple[Array, NDArray[np.bool_]]:
     """M^{-1/2} (n, r) on the r directions ever excited, and the parameters outside them (n,)."""
-    mean = _gram(phibar) / len(phibar)
     size = np.sqrt(np.diagonal(mean))
     scale = 1 / np.where(size > 0, size, 1.0)
     values, vectors = np.linalg.eigh(mean * scale[:, np.newaxis] * scale)

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import json
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from forgetting.cli import options
-from forgetting.cli.identify import check_targets, parse_covariance, parse_orders
+from forgetting.cli.identify import check_targets
+from forgetting.cli.parse import parse_covariance
 from forgetting.cli.progress import progress_bar
 from forgetting.cli.rulebook import make_gate, make_rule
-from forgetting.cli.source import Rates, read_record, show_record
+from forgetting.cli.source import show_record, told
 from forgetting.cli.tables import print_judgement, print_written, say
 
 if TYPE_CHECKING:
@@ -52,21 +52,11 @@ def certify(
 
     Exit code 0, or 1 when the covariance wound up. Samples with a missing value are skipped.
     """
+    source, model = told(**locals())
     from forgetting.record.identify import identify
     from forgetting.record.theory import theory
 
     check_targets(record, report, None, None)
-    # not kept here: the table is as large as all that is made of it
-    source = partial(
-        read_record,
-        record,
-        time,
-        gap,
-        missing,
-        part,
-        encoding,
-        Rates(every, hold, mean, nearest, age),
-    )
     if show:
         show_record(source())
         return 0
@@ -75,11 +65,7 @@ def certify(
     with progress_bar(f"certifying {record.name}") as progress:
         found = identify(
             source(),
-            formula=formula,
-            output=output or (),
-            input=input or (),
-            arx=None if arx is None else parse_orders(arx),
-            offset=offset,
+            **model,
             rule=made,
             gate=before,
             initial_covariance=start,

@@ -10,10 +10,11 @@ import typer
 
 import forgetting as fg
 from forgetting.cli import options
-from forgetting.cli.identify import check_targets, parse_covariance, parse_orders
+from forgetting.cli.identify import check_targets
+from forgetting.cli.parse import parse_covariance
 from forgetting.cli.progress import progress_bar
 from forgetting.cli.rulebook import about
-from forgetting.cli.source import Rates, read_record, show_record
+from forgetting.cli.source import show_record, told
 from forgetting.cli.tables import console, print_written, say, table
 from forgetting.words.errors import RecordError
 from forgetting.words.rounding import brief
@@ -35,6 +36,7 @@ def compare(
     output: options.Outputs = None,
     input: options.Inputs = None,
     arx: options.Orders = None,
+    offset: options.Offset = True,
     time: options.Time = None,
     gap: options.Gap = None,
     missing: options.Missing = None,
@@ -62,24 +64,19 @@ def compare(
     best process noise), chosen on the first part of the record; ranked by the rest. With
     --forgetting-factor all have that one, and all samples count, as they do in a short record.
     """
+    source, model = told(**locals())
     from forgetting.record.compare import compare as compare_rules
 
     check_targets(record, report, None, plot)
     if plot is not None and forgetting_factor is not None:
         raise RecordError("--plot draws the error over the factor, which --forgetting-factor fixes")
-    source = read_record(
-        record, time, gap, missing, part, encoding, Rates(every, hold, mean, nearest, age)
-    )
     if show:
-        return show_record(source)
+        return show_record(source())
     with progress_bar(f"comparing on {record.name}") as progress:
         found = compare_rules(
-            source,
+            source(),
             chosen(rules),
-            formula=formula,
-            output=output or (),
-            input=input or (),
-            arx=None if arx is None else parse_orders(arx),
+            **model,
             initial_covariance=parse_covariance(initial_covariance),
             forgetting_factor=forgetting_factor,
             share=share,
@@ -106,11 +103,9 @@ def chosen(rules: str) -> list[str]:
 
 def row(each: Compared) -> tuple[str, ...]:
     """One line of the table."""
-    largest = float(each.found.trace.eigenvalues[-1][-1])
-    left_out = len(each.found.samples.y) - each.found.used
-    ratio = f"{each.found.covariance_ratio:.3g}"
+    largest, ratio = f"{each.eigenvalues[-1]:.3g}", f"{each.covariance_ratio:.3g}"
     error = brief(each.error)
-    return (each.name, shown(each.setting), error, str(left_out), f"{largest:.3g}", ratio)
+    return (each.name, shown(each.setting), error, str(each.left_out), largest, ratio)
 
 
 def shown(setting: tuple[str, Any] | None) -> str:
@@ -144,15 +139,15 @@ def save(found: Comparison, path: Path) -> None:
     """Write the ranking as one page."""
     from forgetting.report.page import Block, Figure, Page, Table, write
 
-    samples = found.ranked[0].found.samples if found.ranked else None
+    samples = found.samples
     write(
         Page(
             title="Forgetting rules side by side",
-            subtitle="" if samples is None else f"{samples.source} · {samples.model}",
-            facts=() if samples is None else samples.facts(),
+            subtitle=f"{samples.source} · {samples.model}",
+            facts=samples.facts(),
             verdicts=[f"Refused: {sentence}" for sentence in found.refused],
             figures=[
-                Figure(f"{place}. {each.name}", brief(each.error), each.found.rule_in_words)
+                Figure(f"{place}. {each.name}", brief(each.error), repr(each.rule))
                 for place, each in enumerate(found.ranked[:3], start=1)
             ],
             blocks=[

@@ -10,7 +10,7 @@ import typer
 
 from forgetting.cli import options
 from forgetting.cli.fleet_tables import as_data, print_survey
-from forgetting.cli.identify import parse_covariance, parse_orders
+from forgetting.cli.parse import parse_covariance, parse_orders
 from forgetting.cli.progress import rate_bar
 from forgetting.cli.rulebook import make_gate, make_rule
 from forgetting.cli.tables import print_written, say

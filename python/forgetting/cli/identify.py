@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import json
-from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from forgetting.cli import options
+from forgetting.cli.parse import parse_covariance
 from forgetting.cli.progress import progress_bar
 from forgetting.cli.rulebook import make_gate, rule_or_auto
-from forgetting.cli.source import Rates, read_record, show_record
+from forgetting.cli.source import show_record, told
 from forgetting.cli.tables import print_identification, print_written, say
 from forgetting.files import check_outputs
 from forgetting.words.errors import RecordError
@@ -42,6 +40,7 @@ def identify(
     rule: options.RuleName = None,
     forgetting_factor: options.ForgettingFactor = None,
     half_life: options.HalfLife = None,
+    by_clock: options.ByClock = False,
     rate: options.RateText = None,
     threshold: options.Threshold = None,
     settings: options.Settings = None,
@@ -59,22 +58,12 @@ def identify(
 
     Prints parameters with standard errors, and the one-step error beside two baselines.
     """
+    source, model = told(**locals())
     from forgetting.record.identify import identify as identify_record
 
     check_targets(record, report, estimates, plot)
     if dtype not in ("float64", "float32"):
         raise RecordError(f"--dtype is {dtype!r}; it must be float64 or float32")
-    # not kept here: the table is as large as all that is made of it
-    source = partial(
-        read_record,
-        record,
-        time,
-        gap,
-        missing,
-        part,
-        encoding,
-        Rates(every, hold, mean, nearest, age),
-    )
     if show:
         return show_record(source())
     if half_life is not None and (forgetting_factor is not None or rate is not None):
@@ -84,13 +73,10 @@ def identify(
     with progress_bar(f"identifying {record.name}") as progress:
         found = identify_record(
             source(),
-            formula=formula,
-            output=output or (),
-            input=input or (),
-            arx=None if arx is None else parse_orders(arx),
-            offset=offset,
+            **model,
             rule=chosen,
             half_life=half_life,
+            by_clock=by_clock,
             gate=before,
             initial_covariance=parse_covariance(initial_covariance),
             dtype=dtype,
@@ -141,26 +127,3 @@ def check_targets(
             raise RecordError(f"{option} writes {', '.join(suffixes)}, but got {path.name!r}")
     outputs = {"--report": report, "--estimates": estimates, "--plot": plot}
     check_outputs(outputs, None if str(record) == "-" else record)
-
-
-def parse_orders(text: str) -> list[int]:
-    """Read na,nb,nk."""
-    try:
-        return [int(part) for part in text.split(",")]
-    except ValueError:
-        raise RecordError(
-            f"--arx takes three whole numbers na,nb,nk such as 1,2,0, but got {text!r}"
-        ) from None
-
-
-def parse_covariance(text: str) -> Any:
-    """Read one number, or the diagonal with commas; None for auto."""
-    if text == "auto":
-        return None
-    try:
-        values = [float(part) for part in text.split(",")]
-    except ValueError:
-        raise RecordError(
-            f"--initial-covariance takes auto, a number, or numbers with commas, but got {text!r}"
-        ) from None
-    return values[0] if len(values) == 1 else np.array(values)

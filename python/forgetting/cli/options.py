@@ -173,6 +173,15 @@ HalfLife = Annotated[
         metavar="DURATION",
     ),
 ]
+ByClock = Annotated[
+    bool,
+    option(
+        RULE,
+        "Forget by time in place of samples, the bank too: after a step of three usual ones as "
+        "after three.",
+        "--by-clock",
+    ),
+]
 RateText = Annotated[
     str | None,
     option(

@@ -2,18 +2,59 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from rich.markup import escape
 
+from forgetting.cli.parse import parse_orders
 from forgetting.cli.tables import console
 from forgetting.words.errors import RecordError
 
 if TYPE_CHECKING:
     from forgetting.record import Record
+
+
+def told(
+    record: Path,
+    formula: str | None,
+    output: Sequence[str] | None,
+    input: Sequence[str] | None,
+    arx: str | None,
+    offset: bool,
+    time: str | None,
+    gap: str | None,
+    missing: Sequence[str] | None,
+    part: str | None,
+    encoding: str | None,
+    every: str | None,
+    hold: Sequence[str] | None,
+    mean: Sequence[str] | None,
+    nearest: Sequence[str] | None,
+    age: str | None,
+    **_: Any,
+) -> tuple[Callable[[], Record], dict[str, Any]]:
+    """What the options of a command say of record and model, each option by its name.
+
+    Returns
+    -------
+    callable
+        Reads the record. It is not kept: the table is as large as all that is made of it.
+    dict
+        The model, as functions of `forgetting.record` take it.
+    """
+    rates = Rates(every, hold, mean, nearest, age)
+    model = {
+        "formula": formula,
+        "output": output or (),
+        "input": input or (),
+        "arx": None if arx is None else parse_orders(arx),
+        "offset": offset,
+    }
+    return partial(read_record, record, time, gap, missing, part, encoding, rates), model
 
 
 def read_record(

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from forgetting.cli import options
-from forgetting.cli.identify import parse_covariance, parse_orders
+from forgetting.cli.parse import parse_covariance, parse_orders
 from forgetting.cli.rulebook import make_gate, rule_or_auto
 from forgetting.files import check_outputs
 from forgetting.words.errors import RecordError

@@ -69,6 +69,8 @@ def print_identification(found: Identification) -> None:
     print_headline(found.judgement, out)
     out.print(parameters(found))
     out.print(escape(found.uncertainty), "\n")
+    if found.memories is not None:
+        out.print(escape(found.memories.describe()), "\n")
     out.print(scores(found))
     out.print(f"samples     {len(samples.y)}: {found.used} used, {found.left_out()}")
     out.print(f"covariance  largest / smallest eigenvalue of P at the end: {spread(found)}")

@@ -58,7 +58,7 @@ def identified(record: Path = RECORD) -> dict[str, Identification]:
 def row(name: str, found: Identification) -> tuple[str, ...]:
     """One line of the table."""
     resistance = -1000 * found.theta[:, CURRENT, 0]
-    error = 1000 * found.standard_error[:, CURRENT, 0]
+    error = 1000 * found.standard_error_of(CURRENT)
     return (
         name,
         f"{resistance[-1]:.1f} ± {error[-1]:.1f} mΩ",

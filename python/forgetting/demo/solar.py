@@ -29,14 +29,14 @@ from forgetting.words.rounding import brief
 
 FORMULA = "dc_power ~ 0 + poa + poa:t_module"
 MEMORY = 0.7
-"""Forgetting factor of both rules: a memory of about 50 minutes."""
+"""Forgetting factor of both rules that have one: a memory of about 50 minutes."""
 NIGHT = 10.0
 """Threshold of the subspace rule: a regressor shorter than this is night."""
 CITATION = "serf_west_15min.csv (pvanalytics 0.2.2)"
 
 
 def solar(folder: Path) -> Outcome:
-    """Identify the record with three rules and write the reports and the picture."""
+    """Identify the record by the bank and by three rules; write the reports and the picture."""
     found = identified()
     comparison, windup = folder / "solar.html", folder / "windup.png"
     write(page(found), comparison)
@@ -59,14 +59,14 @@ def picture(path: Path, found: dict[str, Identification] | None = None) -> None:
 
 
 def identified() -> dict[str, Identification]:
-    """Run the three rules over the record."""
+    """Run the bank, which is told nothing, and three rules over the record."""
     record = solar_record()
     rules = {
         "none": fg.rule("none"),
         "exponential": fg.rule("exponential", forgetting_factor=MEMORY),
         "subspace": fg.rule("subspace", forgetting_factor=MEMORY, threshold=NIGHT),
     }
-    return {
+    return {"bank": identify(record, formula=FORMULA)} | {
         name: identify(record, formula=FORMULA, rule=rule, initial_covariance=100.0)
         for name, rule in rules.items()
     }

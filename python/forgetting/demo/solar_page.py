@@ -1,4 +1,4 @@
-"""The page that compares three rules on the solar array."""
+"""The page that compares the bank and three rules on the solar array."""
 
 from __future__ import annotations
 
@@ -7,10 +7,11 @@ from matplotlib import pyplot as plt
 
 from forgetting import plot
 from forgetting.demo.windup_picture import windup
-from forgetting.plot.style import BLUE, FAINT, GREEN, VERMILLION, legend_above
+from forgetting.plot.style import BLUE, FAINT, GREEN, PURPLE, VERMILLION, legend_above
 from forgetting.plot.timeline import label_time, timeline
 from forgetting.record import Identification
 from forgetting.report.page import Block, Figure, Page, Table
+from forgetting.report.single import memory
 from forgetting.report.svg import inline
 from forgetting.words.rounding import brief
 
@@ -18,20 +19,22 @@ DAY = 96
 """Samples in a day."""
 REGULAR = slice(25, 410)
 """First light of the first day to the last hour before the day of the snow."""
-COLOURS = {"none": GREEN, "exponential": VERMILLION, "subspace": BLUE}
+COLOURS = {"bank": PURPLE, "none": GREEN, "exponential": VERMILLION, "subspace": BLUE}
 UNITS = ("W per W/m²", "W per W/m² and 10 °C")
 RANGES = ((-2.5, 10.5), (-4.0, 4.0))
 TITLE = "A solar array over five winter days"
 SUBTITLE = (
     "dc_power ~ 0 + poa + poa:t_module · 480 samples of 15 minutes · "
-    "three forgetting rules on the same record"
+    "the bank and three forgetting rules on the same record"
 )
 LESSON = """Every night exponential forgetting throws away what the day taught it: its standard
 error of the gain grows to {ratio:,.0f} times that of subspace forgetting, which forgets only
 where new information arrives and waits for the morning unchanged. Without forgetting the gain
 cannot follow what looks like snow on the last day."""
 RULES = """One-step errors on the same {samples} samples; repeating the last value gives {last} W.
-Exponential forgetting predicts a little better here, because starting anew every morning suits an
+The bank is told nothing and predicts best; its P, which mixes those of its members, is in other
+units. The rules have a forgetting factor of 0.7 and P₀ = 100. Exponential forgetting predicts a
+little better than subspace forgetting here, because starting anew every morning suits an
 array that snow covers and uncovers; the price is a covariance that says nothing about the gain at
 dawn. Gain in W per W/m², its standard error taken after the first day."""
 NIGHTS = """Gain at 25 °C over the four days before the snow. At night the regressor is zero.
@@ -45,7 +48,7 @@ and starts anew; subspace forgetting moves that combination and keeps the other,
 RECORD = """Array SERF west, NREL, Golden, Colorado, 2 to 6 January 2022, from {source}. poa:
 irradiance on the plane of the array (W/m²), its negative night offset set to zero. t_module: mean
 of three module temperatures, in tens of degrees above 25 °C, so that both regressors have a
-similar size; directional rules forget along the regressor and so depend on its units. Full
+similar size: where P₀ is given, directional rules depend on units. Full
 reports of each rule lie beside this page."""
 Found = dict[str, Identification]
 
@@ -54,22 +57,28 @@ def page(found: Found) -> Page:
     """Lay out the comparison."""
     ratio = widest(found["exponential"]) / widest(found["subspace"])
     with plot.styled():
-        blocks = [table(found), nights(found), power(found), parameters(found), model(found)]
+        blocks = [table(found), nights(found), power(found), parameters(found)]
+        blocks += [memory(found["bank"]), model(found)]
     return Page(
         title=TITLE,
         subtitle=SUBTITLE,
         verdicts=[LESSON.format(ratio=round(ratio, -3))],
         figures=[
-            Figure(f"one-step RMSE, {name}", f"{brief(each.scores.model[0])} W", str(each.rule))
+            Figure(f"one-step RMSE, {name}", f"{brief(each.scores.model[0])} W", told(name, each))
             for name, each in found.items()
         ],
         blocks=blocks,
     )
 
 
+def told(name: str, found: Identification) -> str:
+    """What an estimator was told."""
+    return "told nothing" if name == "bank" else str(found.rule)
+
+
 def widest(found: Identification) -> float:
     """Largest standard error of the gain after the first day, W per W/m²."""
-    return float(found.standard_error[DAY:, 0, 0].max())
+    return float(found.standard_error_of(0)[DAY:].max())
 
 
 def table(found: Found) -> Block:
@@ -87,7 +96,7 @@ def table(found: Found) -> Block:
     )
     scores = found["none"].scores
     text = RULES.format(samples=scores.samples, last=brief(scores.last_value[0]))
-    return Block("Three rules", text, Table(header, rows))
+    return Block("The bank and three rules", text, Table(header, rows))
 
 
 def row(name: str, found: Identification) -> tuple[str, ...]:
@@ -97,7 +106,7 @@ def row(name: str, found: Identification) -> tuple[str, ...]:
         name,
         f"{found.scores.model[0]:.1f}",
         brief(widest(found), 3),
-        brief(float(found.trace.eigenvalues[:, -1].max()), 3),
+        "–" if name == "bank" else brief(float(found.trace.eigenvalues[:, -1].max()), 3),
         str(found.used),
         str(found.dead_zone),
         brief(final[0], 3),
@@ -137,7 +146,7 @@ def parameters(found: Found) -> Block:
 def history(found: Found, index: int) -> Markup:
     """One parameter under every rule, above one another."""
     figure, axes = plt.subplots(
-        3, 1, figsize=(9.4, 5.2), sharex=True, sharey=True, layout="constrained"
+        len(found), 1, figsize=(9.4, 6.8), sharex=True, sharey=True, layout="constrained"
     )
     label = found["none"].samples.regressors[index]
     for (name, each), ax in zip(found.items(), axes, strict=True):
@@ -145,8 +154,8 @@ def history(found: Found, index: int) -> Markup:
         ax.set_title(f"{label}, {name}")
         ax.set_xlabel("")
     axes[-1].set_ylim(*RANGES[index])
-    axes[1].set_ylabel(UNITS[index])
-    return inline(figure, f"estimate of {label} under three rules")
+    axes[2].set_ylabel(UNITS[index])
+    return inline(figure, f"estimate of {label} under the bank and three rules")
 
 
 def model(found: Found) -> Block:

@@ -13,6 +13,7 @@ from .finding import Finding
 Array = NDArray[np.float64]
 Direction = NDArray[np.floating[Any]]
 Names = Sequence[str]
+Marks = NDArray[np.bool_]
 
 COLLINEAR = 1e-6
 """Smallest singular value, relative to the largest, of regressors scaled to length 1."""
@@ -23,10 +24,18 @@ LASTING = 1000.0
 BOUNDED = "Take a rule with a bounded covariance, such as subspace, or the bank."
 
 
-def regressors(phi: Array, names: Names) -> Finding | None:
-    """Judge which parameters no sample tells of, or tells apart; `phi` (T, n), complete."""
-    silent = np.array(~phi.any(axis=0))
-    together = inseparable(phi, silent)
+def regressors(information: Array, silent: Marks, names: Names) -> Finding | None:
+    """Judge which parameters no sample tells of, or tells apart.
+
+    Parameters
+    ----------
+    information : (n, n)
+        Σ φᵀφ of the complete samples.
+    silent : (n,) bool
+        Regressors that are zero in all of them.
+    names : sequence of n str
+    """
+    together = inseparable(information, silent)
     words, advice = [], []
     if silent.any():
         words.append(
@@ -46,15 +55,15 @@ def regressors(phi: Array, names: Names) -> Finding | None:
     return Finding("regressors", "warning", " ".join(words), " ".join(advice))
 
 
-def inseparable(phi: Array, silent: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def inseparable(information: Array, silent: Marks) -> Marks:
     """Mark regressors that take part in an (almost) zero combination, (n,)."""
-    marked = np.zeros(phi.shape[1], dtype=bool)
+    marked = np.zeros(len(information), dtype=bool)
     loud = np.flatnonzero(~silent)
     if len(loud) < 2:
         return marked
-    lengths = np.linalg.norm(phi, axis=0)[loud]
+    lengths = np.sqrt(np.diagonal(information)[loud])
     # The Gram matrix has squared singular values; rounding (1e-16) allows no finer look.
-    gram = (phi.T @ phi)[np.ix_(loud, loud)] / np.outer(lengths, lengths)
+    gram = information[np.ix_(loud, loud)] / np.outer(lengths, lengths)
     squares, directions = np.linalg.eigh(gram)
     null = directions[:, squares < COLLINEAR**2 * squares[-1] + 1e-15 * len(squares)]
     marked[loud] = (np.abs(null) > 0.05).any(axis=1)

@@ -7,7 +7,7 @@ squares on its lags, from running sums alone: no matrix is as long as the record
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -73,9 +73,9 @@ def whitened(errors: Array, prediction: Array) -> Array:
     return left
 
 
-def inputs(errors: Array, signals: Mapping[str, Array], of: str) -> Finding | None:
-    """Judge white errors of an output by the past of the signals, (T,) each."""
-    found = {name: explained(errors, signal) for name, signal in signals.items()}
+def inputs(errors: Array, signals: Iterable[tuple[str, Array]], of: str) -> Finding | None:
+    """Judge white errors of an output by the past of signals, each a name and its values (T,)."""
+    found = {name: explained(errors, signal) for name, signal in signals}
     if not found:
         return None
     name = max(found, key=lambda each: found[each][0])

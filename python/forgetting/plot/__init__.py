@@ -5,11 +5,11 @@ colour-blind safe set of Okabe and Ito (2008). Long records are thinned to what 
 keeping the extremes of every stretch. Needs ``pip install 'forgetting[cli]'``.
 
 An `Identification` is drawn by `prediction`, `error`, `parameter`, `eigenvalues`,
-`forgetting_factor`, `rank`, `excited` and `alarms`; `overview` puts them into one picture. What
-`forgetting.analysis` found is drawn by the function of the same name: `excitation`, `content`,
-`spectrum`, `conditions`, `stability`, `ultimate_bound`, `guaranteed_bounds`, `windup`,
-`confidence`; an `Excited` by `excited_directions` and `excited_parameters`. `weights` draws which
-members of a `Bank` are believed when.
+`forgetting_factor`, `memories` (of a bank), `rank`, `excited` and `alarms`; `overview` puts them
+into one picture. What `forgetting.analysis` found is drawn by the function of the same name:
+`excitation`, `content`, `spectrum`, `conditions`, `stability`, `ultimate_bound`,
+`guaranteed_bounds`, `windup`, `confidence`; an `Excited` by `excited_directions` and
+`excited_parameters`. `weights` draws which members of a `Bank` are believed in a run.
 
 A `PolynomialModel` is drawn by `poles_and_zeros` and `simulated`, what its methods return by
 `time_response`, `frequency_response` (a Bode diagram) and `residual_tests` (or `autocorrelation`
@@ -20,6 +20,7 @@ from forgetting.plot.bars import bars, excited_directions, excited_parameters
 from forgetting.plot.covariance import eigenvalues, forgetting_factor, guaranteed_bounds, windup
 from forgetting.plot.intervals import confidence
 from forgetting.plot.members import weights
+from forgetting.plot.memories import memories
 from forgetting.plot.overview import overview, save_overview
 from forgetting.plot.parameters import parameter
 from forgetting.plot.regressors import content, excitation, spectrum
@@ -50,6 +51,7 @@ __all__ = [
     "forgetting_factor",
     "frequency_response",
     "guaranteed_bounds",
+    "memories",
     "overview",
     "parameter",
     "poles_and_zeros",

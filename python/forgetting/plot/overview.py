@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 
 from forgetting.files import check_outputs, whole
 from forgetting.plot.covariance import eigenvalues, forgetting_factor
+from forgetting.plot.memories import memories
 from forgetting.plot.parameters import parameter
 from forgetting.plot.signals import error, prediction
 from forgetting.plot.style import literal, styled
@@ -21,10 +22,10 @@ FORMATS = (".png", ".svg", ".pdf")
 
 
 def overview(found: Identification, output: int = 0) -> Figure:
-    """Draw prediction, error, parameters, forgetting factor and eigenvalues of P of one output."""
+    """Draw prediction, error, parameters, memory and eigenvalues of P of one output."""
     shown = min(len(found.samples.regressors), SHOWN)
     with styled():
-        heights = [2.4, 1.5] + [1.5] * shown + [1.2, 1.8]
+        heights = [2.4, 1.5] + [1.5] * shown + [1.2 if found.memories is None else 1.8, 1.8]
         figure, axes = plt.subplots(
             len(heights),
             1,
@@ -37,7 +38,7 @@ def overview(found: Identification, output: int = 0) -> Figure:
         error(found, output, axes[1])
         for index in range(shown):
             parameter(found, index, output, axes[2 + index])
-        forgetting_factor(found, axes[-2])
+        (forgetting_factor if found.memories is None else memories)(found, axes[-2])
         eigenvalues(found, axes[-1])
         for ax in axes[:-1]:
             ax.set_xlabel("")

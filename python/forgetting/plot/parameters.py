@@ -14,6 +14,9 @@ from forgetting.words.rounding import with_unit
 
 Array = NDArray[np.float64]
 
+WIDTHS = 50_000
+"""Rows, or up to twice as many, of which the typical width of a band is taken."""
+
 
 def parameter(
     found: Identification,
@@ -41,12 +44,20 @@ def parameter(
     """
     ax = axes_or_new(ax)
     x, time_label = timeline(found)
-    theta, spread = found.theta[:, index, output], 2 * found.standard_error[:, index, output]
+    theta = found.theta[:, index, output]
+
+    def spread(rows: slice) -> Array:
+        return 2 * found.standard_error_of(index, output, rows)
+
     ax.fill_between(
-        *thinning.band(x, theta - spread, theta + spread), color=color, alpha=0.18, lw=0
+        *thinning.band(x, lambda rows: around(theta[rows], spread(rows))),
+        color=color,
+        alpha=0.18,
+        lw=0,
     )
     ax.plot(*thinning.line(x, theta), color=color, label=label)
-    low, high = settled_range(theta, spread)
+    few = slice(len(theta) // 10, None, max(1, len(theta) // WIDTHS))
+    low, high = settled_range(theta[len(theta) // 10 :], spread(few))
     if high > low:
         ax.set_ylim(low, high)
     prefix = f"{found.samples.outputs[output]}: " if len(found.samples.outputs) > 1 else ""
@@ -56,11 +67,15 @@ def parameter(
     return ax
 
 
+def around(theta: Array, spread: Array) -> tuple[Array, Array]:
+    """Lower and upper limit of a band."""
+    return theta - spread, theta + spread
+
+
 def settled_range(theta: Array, spread: Array) -> tuple[float, float]:
-    """Vertical range that shows the settled estimate and a good part of its band."""
-    settled = slice(len(theta) // 10, None)
-    low, high = float(theta[settled].min()), float(theta[settled].max())
-    known = spread[settled][np.isfinite(spread[settled])]
+    """Vertical range that shows settled estimates and a good part of their band."""
+    low, high = float(theta.min()), float(theta.max())
+    known = spread[np.isfinite(spread)]
     width = float(np.median(known)) if len(known) else 0.0
     # A band that explodes (windup) must not flatten the estimate itself into a line.
     width = min(width, 2 * (high - low)) if high > low else width

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -26,32 +27,37 @@ def line(x: NDArray[Any], y: Array, points: int = POINTS) -> tuple[NDArray[Any],
     """
     if len(y) <= points:
         return x, y
-    rows = stretches(y, points // 2)
-    low = np.where(np.isnan(rows), np.inf, rows).argmin(axis=1)
-    high = np.where(np.isnan(rows), -np.inf, rows).argmax(axis=1)
-    start = np.arange(len(rows)) * rows.shape[1]
-    keep = np.sort(np.column_stack([low, high]), axis=1) + start[:, None]
-    index = np.unique(np.minimum(keep.ravel(), len(y) - 1))
+    keep: list[int] = []
+    for part in stretches(len(y), points // 2):
+        values = y[part]
+        missing = np.isnan(values)
+        keep.append(part.start + int(np.where(missing, np.inf, values).argmin()))
+        keep.append(part.start + int(np.where(missing, -np.inf, values).argmax()))
+    index = np.unique(keep)
     return x[index], y[index]
 
 
 def band(
-    x: NDArray[Any], low: Array, high: Array, points: int = POINTS // 2
+    x: NDArray[Any], limits: Callable[[slice], tuple[Array, Array]], points: int = POINTS // 2
 ) -> tuple[NDArray[Any], Array, Array]:
-    """Keep the lowest `low` and the highest `high` of every stretch."""
+    """Keep the lowest and the highest of every stretch, of limits that are asked for by rows."""
     if len(x) <= points:
-        return x, low, high
-    lows, highs = stretches(low, points), stretches(high, points)
-    middle = np.minimum(np.arange(len(lows)) * lows.shape[1] + lows.shape[1] // 2, len(x) - 1)
-    lowest = np.where(np.isnan(lows), np.inf, lows).min(axis=1)
-    highest = np.where(np.isnan(highs), -np.inf, highs).max(axis=1)
-    empty = ~np.isfinite(lowest) | ~np.isfinite(highest)
-    return x[middle], np.where(empty, np.nan, lowest), np.where(empty, np.nan, highest)
+        return x, *limits(slice(0, len(x)))
+    parts = list(stretches(len(x), points))
+    length = parts[0].stop
+    middle = [min(part.start + length // 2, len(x) - 1) for part in parts]
+    ends = np.array([outermost(*limits(part)) for part in parts])
+    ends[~np.isfinite(ends).all(axis=1)] = np.nan
+    return x[middle], ends[:, 0], ends[:, 1]
 
 
-def stretches(y: Array, count: int) -> Array:
-    """Cut y into about `count` rows of equal length; the last is filled up with NaN."""
-    length = math.ceil(len(y) / count)
-    filled = np.full(math.ceil(len(y) / length) * length, np.nan)
-    filled[: len(y)] = y
-    return filled.reshape(-1, length)
+def outermost(low: Array, high: Array) -> tuple[float, float]:
+    """The least and the largest that are known; infinite without any."""
+    return float(np.fmin.reduce(low, initial=np.inf)), float(np.fmax.reduce(high, initial=-np.inf))
+
+
+def stretches(total: int, count: int) -> Iterator[slice]:
+    """Cut `total` rows into about `count` stretches of equal length."""
+    length = math.ceil(total / count)
+    for start in range(0, total, length):
+        yield slice(start, min(start + length, total))

@@ -55,7 +55,8 @@ def numbers(frame: pd.DataFrame, name: str, source: str) -> NDArray[np.float64]:
             f"but row {row + 1} is {str(column.iloc[row])[:SHOWN]!r}; "
             "if that means that the value is missing, say so by --missing"
         )
-    values = parsed.to_numpy(dtype=np.float64, na_value=np.nan)
+    plain = parsed.dtype == np.float64  # no copy then
+    values = parsed.to_numpy() if plain else parsed.to_numpy(dtype=np.float64, na_value=np.nan)
     infinite = np.flatnonzero(np.isinf(values))
     if len(infinite):
         row = int(infinite[0])

@@ -10,19 +10,23 @@ from numpy.typing import ArrayLike
 
 import forgetting as fg
 from forgetting.record.comparison import Compared, Comparison
-from forgetting.record.identification import Identification
-from forgetting.record.identify import build, identify, listed
+from forgetting.record.identify import build, listed
+from forgetting.record.origin import origin
+from forgetting.record.ranking import Whole, over_all
 from forgetting.record.read import Record
+from forgetting.record.release import release
 from forgetting.record.samples import Samples
+from forgetting.record.scores import scored_samples
 from forgetting.record.tune import problem
-from forgetting.tuning.baseline import rms, typical
 from forgetting.tuning.candidate import Candidate, tuned
 from forgetting.tuning.choose import SHARE
 from forgetting.tuning.grid import MEMORIES
-from forgetting.tuning.problem import Split, split
+from forgetting.tuning.problem import Problem, Split, split
 from forgetting.tuning.runner import Progress, Runner, Trial
 from forgetting.tuning.search import ROUNDS, best_of_each
 
+CHOOSING = 100_000
+"""Rows by which factors are chosen at most: what a factor is worth shows in fewer."""
 MOST_RUNS = MEMORIES + 2 * ROUNDS
 """Runs in which a rule finds its factor; for the progress bar."""
 
@@ -35,6 +39,7 @@ def compare(
     output: str | Sequence[str] = (),
     input: str | Sequence[str] = (),
     arx: Sequence[int] | None = None,
+    offset: bool = True,
     initial_covariance: ArrayLike | None = None,
     forgetting_factor: float | None = None,
     share: float = SHARE,
@@ -43,11 +48,12 @@ def compare(
     """Run rules over a record and rank them by their one-step error.
 
     Every rule gets the factor (a random walk its process noise) with which it predicts the first
-    part best, and is ranked by its error on the rest; see `forgetting.tune`.
+    part best, and is ranked by its error on the rest; see `forgetting.tune`. Of a first part of
+    more than 100 000 rows the last 100 000 choose.
 
     Parameters
     ----------
-    record, formula, output, input, arx
+    record, formula, output, input, arx, offset
         The record and the model, see `forgetting.record.identify`.
     initial_covariance : float or array_like of shape (n,), optional
         P before the first sample, or its diagonal; follows the data if not given.
@@ -59,7 +65,7 @@ def compare(
     share : float
         Of the complete samples, those that choose.
     progress : callable, optional
-        Called with (runs done, runs expected) while factors are chosen.
+        Called with (runs done, runs expected) after each run.
 
     Raises
     ------
@@ -77,58 +83,92 @@ def compare(
     >>> [each.name for each in found.ranked]
     ['exponential', 'none']
     """
-    samples = build(record, formula, listed(output), listed(input), arx)
-    parts = split(problem(samples), share)
+    samples = build(record, formula, listed(output), listed(input), arx, offset)
+    del record  # the table, which nobody else may hold, is as large as what is made of it
+    release(len(samples.y))
+    whole = problem(samples)
+    parts = split(whole, share)
+    part, choosing = choosing_part(whole, parts)
+    runner = Runner(lambda _: part, choosing, progress=progress)
+    runner.expected = len(rules)
     plain = [Candidate(fg.rule(name), prior(initial_covariance, samples)) for name in rules]
-    runner = Runner(lambda _: problem(samples), parts, progress=progress)
-    unchosen = None
+    chosen, unchosen = with_factors(runner, plain, forgetting_factor, parts.is_enough)
+    moved = origin(samples, moves=initial_covariance is None).moved(samples)
+    scored = scored_samples(samples) if unchosen else parts.reporting
+    made = []
+    for trial, found in zip(chosen, over_all(chosen, moved, scored), strict=True):
+        made.append((trial, found))
+        if progress is not None:
+            runs = runner.runs + len(made)
+            progress(runs, max(runner.expected, runs))
+    return Comparison(
+        ranked=ranking(made, chosen_by=not unchosen),
+        refused=[f"{name_of(trial)}: {each.refused}" for trial, each in made if each.refused],
+        split=None if unchosen else parts,
+        unchosen=unchosen,
+        trials=runner.trials,
+        samples=samples,
+        choosing=None if unchosen or part is whole else len(part.y),
+    )
+
+
+def with_factors(
+    runner: Runner, plain: Sequence[Candidate], forgetting_factor: float | None, enough: bool
+) -> tuple[list[Trial], str | None]:
+    """The rules with their factors, and why none was chosen, if so."""
     if forgetting_factor is not None:
-        unchosen = "one factor for all rules: none was chosen"
-        chosen = [Trial(fixed(name, forgetting_factor), np.nan, "given") for name in rules]
-    elif not parts.is_enough:
-        unchosen = "all rules at their defaults: the record is too short to choose factors"
-        chosen = [Trial(candidate, np.nan, "default") for candidate in plain]
-    else:
-        runner.keep(None)
-        runner.expected = sum(MOST_RUNS if tuned(name) else 1 for name in rules)
-        chosen = best_of_each(runner, plain)
-    model = {"formula": formula, "output": output, "input": input, "arx": arx}
-    settings = {**model, "initial_covariance": initial_covariance}
-    scored = None if unchosen else parts
-    ranked, refused = ranking(chosen, record, scored, settings)
-    return Comparison(ranked, refused, scored, unchosen, runner.trials)
+        given = [Trial(with_factor(each, forgetting_factor), np.nan, "given") for each in plain]
+        return given, "one factor for all rules: none was chosen"
+    if not enough:
+        defaults = [Trial(candidate, np.nan, "default") for candidate in plain]
+        return defaults, "all rules at their defaults: the record is too short to choose factors"
+    runner.keep(None)
+    names = [each.rule.name for each in plain if each.rule is not None]
+    runner.expected += sum(MOST_RUNS if tuned(name) else 1 for name in names)
+    return best_of_each(runner, plain), None
 
 
-def ranking(
-    chosen: Sequence[Trial], record: Record, parts: Split | None, settings: dict[str, Any]
-) -> tuple[list[Compared], list[str]]:
-    """Every rule run over the whole record, the best first; and those that did not get through."""
-    ranked, refused = [], []
-    for trial in chosen:
-        rule = trial.candidate.rule
-        assert rule is not None
-        try:
-            ranked.append(ranked_by(trial, identify(record, rule=rule, **settings), parts))
-        except fg.NumericalRange as error:
-            refused.append(f"{rule.name}: {error}")
-    return sorted(ranked, key=lambda each: each.error), refused
+def choosing_part(problem: Problem, parts: Split) -> tuple[Problem, Split]:
+    """The rows by which factors are chosen: of a long first part the last `CHOOSING`."""
+    start = parts.row - CHOOSING
+    if start <= 0:
+        return problem, parts
+    rows = slice(start, parts.row)
+    part = problem.part(rows)
+    count = np.cumsum(part.complete)
+    settled = count > max(2 * problem.phi.shape[1], count[-1] // 10)
+    choosing = parts.choosing[rows] & settled
+    return part, Split(CHOOSING, choosing, np.zeros_like(choosing))
 
 
-def fixed(name: str, forgetting_factor: float) -> Candidate:
+def ranking(made: Sequence[tuple[Trial, Whole]], chosen_by: bool) -> list[Compared]:
+    """The rules that got through the record, the best first."""
+    found = [
+        Compared(
+            name=name_of(trial),
+            rule=trial.candidate.rule,
+            error=each.error,
+            chosen_by=trial.error if chosen_by else None,
+            left_out=each.left_out,
+            eigenvalues=each.eigenvalues,
+        )
+        for trial, each in made
+        if not each.refused
+    ]
+    return sorted(found, key=lambda each: each.error)
+
+
+def name_of(trial: Trial) -> str:
+    """Registry name of the rule of a trial."""
+    assert trial.candidate.rule is not None
+    return trial.candidate.rule.name
+
+
+def with_factor(plain: Candidate, forgetting_factor: float) -> Candidate:
     """The rule with this factor, if it uses one."""
-    plain: Any = fg.rule(name)
-    uses = plain.about["forgetting_factor"]
-    return Candidate(fg.rule(name, forgetting_factor=forgetting_factor) if uses else plain)
-
-
-def ranked_by(trial: Trial, found: Identification, parts: Split | None) -> Compared:
-    """A rule with the error that it is ranked by."""
-    rule = trial.candidate.rule
-    assert rule is not None
-    if parts is None:
-        return Compared(rule.name, found, typical(found.scores.model), None)
-    error = typical(rms(found.trace.error[parts.reporting]))
-    return Compared(rule.name, found, error, trial.error)
+    rule: Any = plain.rule
+    uses = rule.about["forgetting_factor"]
+    return plain.with_rule(forgetting_factor=forgetting_factor) if uses else plain
 
 
 def prior(initial_covariance: ArrayLike | None, samples: Samples) -> tuple[float, ...] | None:

@@ -5,7 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from forgetting.record.identification import Identification, finite
+import numpy as np
+from numpy.typing import NDArray
+
+from forgetting.record.identification import finite
+from forgetting.record.samples import Samples
 from forgetting.tuning.candidate import tuned
 from forgetting.tuning.problem import Split
 from forgetting.tuning.runner import Trial
@@ -19,37 +23,48 @@ class Compared:
     ----------
     name : str
         Registry name of the rule.
-    found : Identification
-        Its run over the whole record.
+    rule : Rule
+        With its setting.
     error : float
         One-step root mean square error on the rest of the record, or, where nothing was chosen, on
         all of it; of several outputs the geometric mean.
     chosen_by : float or None
         The error on the first part, by which its factor was chosen; None where it was not.
+    left_out : int
+        Samples of the whole record that were not used.
+    eigenvalues : ndarray, shape (n,)
+        Of P at the end of the record, ascending.
     """
 
     name: str
-    found: Identification
+    rule: Any
     error: float
     chosen_by: float | None
+    left_out: int
+    eigenvalues: NDArray[np.float64]
 
     @property
     def setting(self) -> tuple[str, Any] | None:
         """The parameter that says how much the rule forgets, and its value."""
         name = tuned(self.name)
-        return None if name is None else (name, self.found.rule.arguments()[name])
+        return None if name is None else (name, self.rule.arguments()[name])
+
+    @property
+    def covariance_ratio(self) -> float:
+        """Largest over smallest eigenvalue; inf when rounding made P singular."""
+        smallest, largest = self.eigenvalues[[0, -1]]
+        return float(largest / smallest) if smallest > 0 else float("inf")
 
     def summary(self) -> dict[str, Any]:
         """The rule for JSON."""
-        ends = self.found.trace.eigenvalues[-1]
         return {
             "rule": self.name,
             "setting": None if self.setting is None else dict([self.setting]),
             "error": self.error,
             "error_on_first_part": self.chosen_by,
-            "left_out": len(self.found.samples.y) - self.found.used,
-            "largest_eigenvalue": float(ends[-1]),
-            "covariance_ratio": self.found.covariance_ratio,
+            "left_out": self.left_out,
+            "largest_eigenvalue": float(self.eigenvalues[-1]),
+            "covariance_ratio": self.covariance_ratio,
         }
 
 
@@ -69,6 +84,10 @@ class Comparison:
         Why nothing was chosen.
     trials : list of Trial
         All factors that were tried.
+    samples : Samples
+        Regressors and outputs.
+    choosing : int or None
+        Rows by which factors were chosen, where these are fewer than the first part.
     """
 
     ranked: list[Compared]
@@ -76,22 +95,26 @@ class Comparison:
     split: Split | None
     unchosen: str | None
     trials: list[Trial]
+    samples: Samples
+    choosing: int | None = None
 
     def scored_in_words(self) -> str:
         """Which samples the errors are of, and what was chosen."""
         if self.split is None:
             return f"all samples, {self.unchosen}"
         count = int(self.split.reporting.sum())
-        return f"the last {count} samples, each rule with its best factor on those before"
+        by = "those before" if self.choosing is None else f"the {self.choosing} rows before"
+        return f"the last {count} samples, each rule with its best factor on {by}"
 
     def summary(self) -> dict[str, Any]:
         """All of it for JSON: None where a number is not finite."""
-        samples = self.ranked[0].found.samples if self.ranked else None
+        samples = self.samples if self.ranked else None
         found = {
             "record": None if samples is None else samples.source,
             "model": None if samples is None else samples.model,
             "scored": self.scored_in_words(),
             "first_row_of_the_rest": None if self.split is None else self.split.row,
+            "rows_that_choose": self.choosing,
             "rules": [each.summary() for each in self.ranked],
             "refused": self.refused,
         }

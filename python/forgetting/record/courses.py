@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 import forgetting as fg
-from forgetting.record.samples import Samples
+from forgetting.record.moved import Moved, as_run
 from forgetting.record.trace import USED
 
 Array = NDArray[np.float64]
@@ -40,11 +40,11 @@ class Course:
     weight: float
 
 
-def weigh(samples: Samples, settings: dict[str, Any]) -> tuple[Course, ...]:
+def weigh(samples: Moved, settings: dict[str, Any]) -> tuple[Course, ...]:
     """The courses by their likelihood on the last samples."""
-    n = samples.phi.shape[1]
-    rows = min(len(samples.y), SAMPLES, COST // n**2)
-    part = replace(samples, phi=samples.phi[-rows:], y=samples.y[-rows:])
+    n = samples.parameters
+    rows = min(len(samples), SAMPLES, COST // n**2)
+    part = samples.last(rows)
     if rows < 2 * n or part.complete.sum() < n + 3:
         return ()
     grid = [(r, q) for r in CORRELATIONS for q in walks(int(part.complete.sum()))]
@@ -74,41 +74,40 @@ def walks(samples: int) -> list[float]:
     return found
 
 
-def differenced(samples: Samples, correlation: float) -> Samples:
-    """The samples less `correlation` times the one before; the first is missing."""
+def differenced(phi: Array, y: Array, correlation: float) -> tuple[Array, Array]:
+    """Rows less `correlation` times the one before; the first is missing."""
     if not correlation:
-        return samples
-    phi, y = np.full_like(samples.phi, np.nan), np.full_like(samples.y, np.nan)
-    phi[1:] = samples.phi[1:] - correlation * samples.phi[:-1]
-    y[1:] = samples.y[1:] - correlation * samples.y[:-1]
-    return replace(samples, phi=phi, y=y)
+        return phi, y
+    made = tuple(np.full_like(each, np.nan) for each in (phi, y))
+    for new, old in zip(made, (phi, y), strict=True):
+        new[1:] = old[1:] - correlation * old[:-1]
+    return made[0], made[1]
 
 
-def walk(samples: Samples, noise: float, settings: dict[str, Any]) -> Any:
+def walk(samples: Moved, noise: float, settings: dict[str, Any]) -> Any:
     """The estimator for parameters that walk by `noise`, in units of the regressors."""
-    n = samples.phi.shape[1]
+    n = samples.parameters
     if not noise:
         return fg.RLS(n, rule=fg.rule("none"), **settings)
     steps: Any = noise
     if settings["initial_covariance"] is not None:  # then noises are in the units of the record
-        squares = np.nanmean(np.square(samples.phi), axis=0)
+        squares = samples.mean_squares
         steps = noise / np.where(squares > 0, squares, 1.0)
     schedule = "every_sample" if n <= FEW else "cyclic"
     rule = fg.rule("random_walk", process_noise=steps, schedule=schedule)
     return fg.RLS(n, rule=rule, **settings)
 
 
-def likelihood(samples: Samples, r: float, q: float, settings: dict[str, Any]) -> float:
+def likelihood(samples: Moved, r: float, q: float, settings: dict[str, Any]) -> float:
     """log L of a course; minus infinity where it cannot be computed."""
     estimator, learning = walk(samples, q, settings), start(samples)
-    part = differenced(samples, r)
-    phi, y = as_run(part, settings)
+    phi, y = as_run(*differenced(*samples.rows(slice(None)), r), settings["dtype"])
     try:
         found = estimator.run(phi, y, outputs=OUTPUTS, missing="skip")
     except (fg.NumericalRange, fg.InvalidInput):
         return -np.inf
     used = (found.skipped == USED) & (np.cumsum(samples.complete) > learning)
-    error = np.asarray(found.error, dtype=np.float64).reshape(part.y.shape)[used]
+    error = np.asarray(found.error, dtype=np.float64).reshape(len(samples), -1)[used]
     spread = 1 + np.asarray(found.leverage, dtype=np.float64)[used, None]
     if not len(error):
         return -np.inf
@@ -123,9 +122,9 @@ def likelihood(samples: Samples, r: float, q: float, settings: dict[str, Any]) -
     return float(-0.5 * value * whole)
 
 
-def start(samples: Samples) -> int:
+def start(samples: Moved) -> int:
     """Complete samples whose errors show the initial guess; fewer in a short record."""
-    n, total = int(samples.phi.shape[1]), int(samples.complete.sum())
+    n, total = samples.parameters, int(samples.complete.sum())
     return 5 * n + 20 if total >= 2 * (5 * n + 20) else n + 1
 
 
@@ -136,10 +135,3 @@ def student_scale(squares: Array) -> Array:
         weights = (FREEDOM + 1) / (FREEDOM + squares / np.where(mean > 0, mean, 1.0))
         mean = np.mean(weights * squares, axis=0)
     return np.asarray(mean)
-
-
-def as_run(samples: Samples, settings: dict[str, Any]) -> tuple[Array, Array]:
-    """Regressors and outputs as an estimator takes them: one output has no second axis."""
-    y = samples.y if samples.y.shape[1] > 1 else samples.y[:, 0]
-    phi, y = (np.ascontiguousarray(each, dtype=settings["dtype"]) for each in (samples.phi, y))
-    return phi, y

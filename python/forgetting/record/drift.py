@@ -34,11 +34,11 @@ from forgetting.record.courses import (
     LEAST,
     OUTPUTS,
     Course,
-    as_run,
     differenced,
     walk,
     weigh,
 )
+from forgetting.record.moved import Moved, as_run
 from forgetting.record.origin import Origin, constant_of
 from forgetting.record.samples import Samples
 from forgetting.record.trace import USED
@@ -87,14 +87,10 @@ class Drift:
         """± of the last estimate `theta` (n, m): two of them hold 95.4 %."""
         return around(theta, self.mean[-1], self.variance[-1])
 
-    def standard_error(self, theta: Array) -> Array:
-        """± of the estimates `theta` (T, n, m)."""
-        found, at = np.empty_like(theta), np.arange(len(theta))
-        for i, j in np.ndindex(theta.shape[1:]):
-            mean = np.interp(at, self.rows, self.mean[:, i, j])
-            variance = np.interp(at, self.rows, self.variance[:, i, j])
-            found[:, i, j] = around(theta[:, i, j], mean, variance)
-        return found
+    def standard_error(self, theta: Array, i: int, j: int, rows: NDArray[np.int64]) -> Array:
+        """± of `theta` (K,), parameter i of output j as estimated after each of the rows."""
+        mean = np.interp(rows, self.rows, self.mean[:, i, j])
+        return around(theta, mean, np.interp(rows, self.rows, self.variance[:, i, j]))
 
     def describe(self, start: str = "± counts with") -> str:
         """Say in a sentence what ± counts with."""
@@ -185,7 +181,7 @@ def ends(total: int) -> NDArray[np.int64]:
 
 
 def along(
-    samples: Samples,
+    samples: Moved,
     here: Origin,
     course: Course,
     rows: NDArray[np.int64],
@@ -193,20 +189,24 @@ def along(
 ) -> tuple[Array, Array]:
     """θ and σ² P_ii of a course after each of the rows, (K, n, m) each, as measured from zero."""
     estimator = walk(samples, course.process_noise, settings)
-    part = differenced(samples, course.correlation)
-    phi, y = as_run(part, settings)
-    change, (_, n), m = here.change(), samples.phi.shape, samples.y.shape[1]
+    change, n, m = here.change(), samples.parameters, samples.targets
     noise, thetas, spreads, start = Noise(n, m), [], [], 0
     for row in rows:
-        found = estimator.run(
-            phi[start : row + 1], y[start : row + 1], outputs=OUTPUTS, missing="skip"
-        )
+        phi, y = as_run(*after(samples, course, start, int(row) + 1), settings["dtype"])
+        found = estimator.run(phi, y, outputs=OUTPUTS, missing="skip")
         noise.take(found)
         thetas.append(np.asarray(estimator.theta, dtype=np.float64).reshape(n, m))
         spread = np.einsum("ij,jk,ik->i", change, estimator.covariance, change)
         spreads.append(spread[:, None] * noise.variance)
         start = row + 1
     return here.theta(np.array(thetas)), np.array(spreads)
+
+
+def after(samples: Moved, course: Course, start: int, stop: int) -> tuple[Array, Array]:
+    """Some rows less what the noise of the row before leaves in them."""
+    before = 1 if course.correlation and start else 0
+    parts = differenced(*samples.rows(slice(start - before, stop)), course.correlation)
+    return parts[0][before:], parts[1][before:]
 
 
 class Noise:
@@ -235,6 +235,8 @@ def middle(samples: Samples, moves: bool) -> Origin:
     constant, level = constant_of(samples) if moves else (None, 1.0)
     if constant is None:
         return Origin(None, 1.0, np.zeros(samples.phi.shape[1]), np.zeros(samples.y.shape[1]))
-    center = samples.known.mean(axis=0)
+    parts = [(phi.sum(axis=0), y.sum(axis=0)) for phi, y in samples.known_pieces()]
+    count = int(samples.complete.sum())
+    center, output = (np.sum(sums, axis=0) / count for sums in zip(*parts, strict=True))
     center[constant] = 0.0
-    return Origin(constant, level, center, samples.y[samples.complete].mean(axis=0))
+    return Origin(constant, level, center, output)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 import forgetting as fg
+from forgetting.extras import extra
 from forgetting.files import whole
 from forgetting.record.samples import Samples
 from forgetting.record.trace import Trace
@@ -20,7 +22,12 @@ Array = NDArray[np.float64]
 SUFFIXES = (".parquet", ".csv")
 
 
-def table(samples: Samples, trace: Trace, prediction: Array, standard_error: Array) -> pd.DataFrame:
+def table(
+    samples: Samples,
+    trace: Trace,
+    standard_error: Callable[[int, int, slice], Array],
+    part: slice | None = None,
+) -> pd.DataFrame:
     """One row per sample; a column's name has the quantity and its owner: ``estimate:poa``.
 
     ``row`` counts from 1 below the header. With several outputs the estimate columns name both,
@@ -30,38 +37,60 @@ def table(samples: Samples, trace: Trace, prediction: Array, standard_error: Arr
     ----------
     samples, trace
         The problem and its run.
-    prediction : ndarray, shape (T, m)
-    standard_error : ndarray, shape (T, n, m)
+    standard_error : callable
+        ± of parameter i of output j after some rows.
+    part : slice, optional
+        These rows only.
     """
-    columns: dict[str, Any] = {"row": range(1, len(samples.y) + 1)}
+    rows = slice(0, len(samples.y)) if part is None else part
+    columns: dict[str, Any] = {"row": range(rows.start + 1, rows.stop + 1)}
     if samples.clock is not None:
-        columns["time"] = samples.clock.values.to_numpy()
+        columns["time"] = samples.clock.values.iloc[rows].to_numpy()
     for j, output in enumerate(samples.outputs):
-        columns[f"measured:{output}"] = samples.y[:, j]
-        columns[f"predicted:{output}"] = prediction[:, j]
-        columns[f"error:{output}"] = trace.error[:, j]
-    columns["forgetting_factor"] = trace.forgetting_factor
-    columns["leverage"] = trace.leverage
-    columns["skipped"] = [fg.SKIPPED[code] or "used" for code in trace.skipped.tolist()]
+        columns[f"measured:{output}"] = samples.y[rows, j]
+        columns[f"predicted:{output}"] = samples.y[rows, j] - trace.error[rows, j]
+        columns[f"error:{output}"] = trace.error[rows, j]
+    columns["forgetting_factor"] = trace.forgetting_factor[rows]
+    columns["leverage"] = trace.leverage[rows]
+    columns["skipped"] = [fg.SKIPPED[code] or "used" for code in trace.skipped[rows].tolist()]
     for j, output in enumerate(samples.outputs):
         prefix = f"{output}:" if len(samples.outputs) > 1 else ""
         for i, name in enumerate(samples.regressors):
-            columns[f"estimate:{prefix}{name}"] = trace.theta[:, i, j]
-            columns[f"standard_error:{prefix}{name}"] = standard_error[:, i, j]
+            columns[f"estimate:{prefix}{name}"] = trace.theta[rows, i, j]
+            columns[f"standard_error:{prefix}{name}"] = standard_error(i, j, rows)
     return pd.DataFrame(columns)
 
 
-def save(frame: pd.DataFrame, path: Path) -> None:
-    """Write the table by suffix."""
+def save(tables: Iterable[pd.DataFrame], path: Path) -> None:
+    """Write the rows of tables with the same columns, by suffix: a long record is not there twice.
+
+    Raises
+    ------
+    RecordError
+        For another suffix, or without pyarrow.
+    """
     if path.suffix.lower() not in SUFFIXES:
         raise RecordError(f"estimates go to .parquet or .csv, but the file is {path.name!r}")
+    write = save_csv if path.suffix.lower() == ".csv" else save_parquet
     try:
         with whole(path) as made:
-            if path.suffix.lower() == ".csv":
-                frame.to_csv(made, index=False)
-            else:
-                frame.to_parquet(made, index=False)
-    except ImportError:
-        raise RecordError(
-            "writing Parquet needs pyarrow; install it with pip install 'forgetting[cli]'"
-        ) from None
+            write(tables, made)
+    except ImportError as error:
+        raise RecordError(str(error)) from None
+
+
+def save_csv(tables: Iterable[pd.DataFrame], path: Path) -> None:
+    """Write names once, and all rows."""
+    for number, frame in enumerate(tables):
+        frame.to_csv(path, index=False, header=not number, mode="a" if number else "w")
+
+
+def save_parquet(tables: Iterable[pd.DataFrame], path: Path) -> None:
+    """Write a group of rows a table."""
+    arrow, parquet = (extra(module, "writing Parquet") for module in ("pyarrow", "pyarrow.parquet"))
+    parts = iter(tables)
+    first = arrow.Table.from_pandas(next(parts), preserve_index=False)
+    with parquet.ParquetWriter(path, first.schema) as writer:
+        writer.write_table(first)
+        for frame in parts:
+            writer.write_table(arrow.Table.from_pandas(frame, first.schema, preserve_index=False))

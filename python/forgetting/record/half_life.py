@@ -15,15 +15,19 @@ from forgetting.words.errors import RecordError
 Array = NDArray[np.float64]
 
 
-def with_half_life(rule: Any, half_life: Any, samples: Samples) -> tuple[Any, Array | None]:
-    """The rule with this half-life, and the times of the samples where these count.
+def with_time(
+    rule: Any, half_life: Any, by_clock: bool, samples: Samples
+) -> tuple[Any, Array | None]:
+    """The rule with a half-life, if any, and the times of the samples where these count.
 
     Parameters
     ----------
     rule : str or Rule
-        A rule that has a forgetting factor, which the half-life replaces.
-    half_life : float, str or duration
+        With a half-life one that has a forgetting factor, which the half-life replaces.
+    half_life : float, str or duration, or None
         A number counts samples; "10min" or a duration counts by the clock of the record.
+    by_clock : bool
+        Whether what counts samples counts usual steps of the clock.
     samples : Samples
         The samples that the rule is to be run over.
 
@@ -31,14 +35,21 @@ def with_half_life(rule: Any, half_life: Any, samples: Samples) -> tuple[Any, Ar
     -------
     rule : Rule
     time : ndarray, shape (T,), or None
-        Seconds; None where samples count.
+        Seconds where the half-life is in time, else usual steps; None where samples count.
 
     Raises
     ------
     RecordError
         When the rule has no forgetting factor, or the record no clock.
     """
-    return rule_for(rule, half_life), None if counts(half_life) else seconds_in(samples)
+    if half_life is not None:
+        rule = rule_for(rule, half_life)
+        if not counts(half_life):
+            return rule, seconds_in(samples, "a half-life in time")
+    if not by_clock:
+        return rule, None
+    time = seconds_in(samples, "by_clock")
+    return rule, time / (samples.usual_step or 1.0)
 
 
 def rule_for(rule: Any, half_life: Any) -> Any:
@@ -70,13 +81,11 @@ def counts(half_life: Any) -> bool:
     return True
 
 
-def seconds_in(samples: Samples) -> Array:
+def seconds_in(samples: Samples, what: str) -> Array:
     """When each sample was taken; a step back, or from or to a missing time, takes no time."""
     if samples.clock is None:
-        raise RecordError(
-            f"a half-life in time needs a clock, and {samples.source} has none; a number counts "
-            "samples"
-        )
+        advice = "; a number counts samples" if what != "by_clock" else ""
+        raise RecordError(f"{what} needs a clock, and {samples.source} has none{advice}")
     steps = np.nan_to_num(samples.clock.steps, nan=0.0)
     return np.concatenate([[0.0], np.cumsum(np.maximum(steps, 0.0))])
 

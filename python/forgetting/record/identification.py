@@ -18,11 +18,14 @@ from forgetting.judgement import Judgement
 from forgetting.record import estimates
 from forgetting.record.counts import Counts
 from forgetting.record.drift import Drift, claim, drift
-from forgetting.record.samples import Samples
+from forgetting.record.memories import Memories, memories
+from forgetting.record.origin import origin
+from forgetting.record.samples import Samples, pieces
 from forgetting.record.scores import Scores
 from forgetting.record.trace import USED
 from forgetting.record.uncertainty import noise_variance, standard_errors
 from forgetting.record.units import parameter_unit
+from forgetting.words.duration import spoken
 
 Array = NDArray[np.float64]
 
@@ -40,7 +43,9 @@ class Identification(Counts):
     samples : Samples
         Regressors and outputs as they entered the estimator.
     rule : Rule
-        The forgetting rule.
+        The forgetting rule; of a bank that of the member most believed at the end.
+    members : list of Rule
+        Of a bank; empty for a rule.
     scores : Scores
         One-step errors of the model and of baselines, on the same samples.
     judgement : Judgement
@@ -63,6 +68,7 @@ class Identification(Counts):
     initial_covariance: Array
     units: Array
     settings: dict[str, Any]
+    members: list[Any]
 
     @cached_property
     def noise_variance(self) -> Array:
@@ -74,17 +80,26 @@ class Identification(Counts):
         """How parameters drift and noise remembers, most likely; None for too short a record."""
         return drift(self.samples, self.settings)
 
-    @cached_property
+    @property
     def standard_error(self) -> Array:
-        """± of each parameter after each sample, (T, n, m).
+        """± of each parameter after each sample, (T, n, m); see `standard_error_of`."""
+        found = np.empty_like(self.theta)
+        for i, j in np.ndindex(found.shape[1:]):
+            found[:, i, j] = self.standard_error_of(i, j)
+        return found
+
+    def standard_error_of(self, i: int, j: int = 0, rows: slice = slice(None)) -> Array:
+        """± of parameter i of output j after each sample, or after some, (T,).
 
         Of a bank, which supposes nothing, that of `drift`: two of them hold about 95 % of what the
         parameter may be. Of a rule what its P says; `uncertainty` says how right that is here.
         """
+        claimed = standard_errors(self.trace.variance[rows, i], self.noise_variance[rows, j])
         if self.trace.weights is None or self.drift is None:
-            return self.claimed_standard_error
-        found = self.drift.standard_error(self.theta)
-        return np.where(np.isnan(self.claimed_standard_error), np.nan, found)
+            return claimed
+        at = np.arange(*rows.indices(len(self.theta)))
+        found = self.drift.standard_error(self.theta[rows, i, j], i, j, at)
+        return np.where(np.isnan(claimed), np.nan, found)
 
     @cached_property
     def final_standard_error(self) -> Array:
@@ -95,13 +110,14 @@ class Identification(Counts):
         found = self.drift.final_standard_error(self.theta[-1])
         return np.where(np.isnan(claimed), np.nan, found)
 
-    @cached_property
+    @property
     def claimed_standard_error(self) -> Array:
         """What P says of each parameter after each sample, (T, n, m): √(σ² P_ii).
 
         It is right if the parameters drift as the rule supposes and the noise is white.
         """
-        return standard_errors(self.trace)
+        variance, noise = self.trace.variance[:, :, None], self.noise_variance[:, None, :]
+        return standard_errors(variance, noise)
 
     @property
     def verdicts(self) -> list[str]:
@@ -121,6 +137,14 @@ class Identification(Counts):
             return np.full(self.theta.shape[2], np.nan)
         spread = 1 + self.trace.leverage[last] * (self.trace.weights is None)
         return np.asarray(np.sqrt(np.mean(self.trace.error[last] ** 2 / spread[:, None], axis=0)))
+
+    @cached_property
+    def memories(self) -> Memories | None:
+        """Which memories fitted when: how fast the parameters change; None for a single rule."""
+        if self.trace.weights is None:
+            return None
+        moved = origin(self.samples, self.settings["initial_covariance"] is None)
+        return memories(moved.moved(self.samples), self.trace, self.members, self.settings)
 
     @property
     def theta(self) -> Array:
@@ -178,7 +202,11 @@ class Identification(Counts):
         if self.trace.weights is None or self.trace.memory is None:
             return repr(self.rule)
         memory = self.trace.memory[-1]
-        length = f"{memory:.3g} samples" if np.isfinite(memory) else "the whole record"
+        length = "the whole record"
+        if np.isfinite(memory):
+            step = self.samples.usual_step
+            time = "" if step is None else f" ({spoken(float(memory) * step)})"
+            length = f"{memory:.3g} samples{time}"
         return f"bank of {len(self.trace.weights)} members, at the end with a memory of {length}"
 
     def final(self) -> list[tuple[str, str, float, float]]:
@@ -197,13 +225,16 @@ class Identification(Counts):
             return Guarantee(None, None, bounded=True)
         used = self.trace.skipped == USED
         factors = self.trace.forgetting_factor[used]
-        squares = np.square(self.samples.phi[used] / self.units).sum(axis=1)
+        largest = 0.0
+        for part in pieces(len(used)):
+            squares = np.square(self.samples.phi[part][used[part]] / self.units).sum(axis=1)
+            largest = max(largest, float(squares.max(initial=0.0)))
         return guaranteed_bounds(
             self.rule,
             self.initial_covariance,
             parameters=self.samples.phi.shape[1],
             forgetting_factors=(factors.min(initial=1.0), factors.max(initial=0.0) or 1.0),
-            regressor_bound=float(squares.max(initial=0.0)),
+            regressor_bound=largest,
         )
 
     @property
@@ -214,12 +245,16 @@ class Identification(Counts):
 
     def estimates(self) -> pd.DataFrame:
         """Every sample's estimate, error and prediction, as a table of T rows."""
-        return estimates.table(self.samples, self.trace, self.prediction, self.standard_error)
+        return estimates.table(self.samples, self.trace, self.standard_error_of)
 
     def save_estimates(self, path: str | Path) -> None:
         """Write `estimates` as Parquet or CSV, by suffix."""
         check_outputs({"estimates": Path(path)}, self.samples.found.path)
-        estimates.save(self.estimates(), Path(path))
+        tables = (
+            estimates.table(self.samples, self.trace, self.standard_error_of, part)
+            for part in pieces(len(self.samples.y))
+        )
+        estimates.save(tables, Path(path))
 
     def summary(self) -> dict[str, Any]:
         """What `forgetting identify` prints, for JSON: None where a number is not finite."""
@@ -237,6 +272,7 @@ class Identification(Counts):
             "clock": self.samples.clock_as_data(),
             "noise": dict(zip(self.samples.outputs, self.noise.tolist(), strict=True)),
             "memory": self.memory,
+            "memories": None if self.memories is None else self.memories.to_dict(),
             "samples": self.counts() | {"scored": self.scores.samples},
             "covariance": {
                 "smallest_eigenvalue": float(ends[0]),

@@ -13,13 +13,15 @@ from numpy.typing import ArrayLike, NDArray
 import forgetting as fg
 from forgetting.record.dynamics import dynamics
 from forgetting.record.feedback import Feedback, feedback
-from forgetting.record.half_life import with_half_life
+from forgetting.record.half_life import with_time
 from forgetting.record.identification import Identification
 from forgetting.record.judge import Judged, judge, settled
 from forgetting.record.missing import Words
+from forgetting.record.moved import Moved
 from forgetting.record.names import clean
-from forgetting.record.origin import origin
+from forgetting.record.origin import constants, origin
 from forgetting.record.read import Record, read
+from forgetting.record.release import release
 from forgetting.record.remembered import remembered
 from forgetting.record.samples import Samples
 from forgetting.record.scores import score
@@ -40,6 +42,7 @@ def identify(
     offset: bool = True,
     rule: Any = "auto",
     half_life: Any = None,
+    by_clock: bool = False,
     gate: Any = None,
     initial_covariance: ArrayLike | None = None,
     dtype: str = "float64",
@@ -66,6 +69,9 @@ def identify(
         In the place of the rule's forgetting factor: after this time half of what is known is
         forgotten. A number counts samples, "10min" or a duration counts by the clock, whatever the
         steps between samples; one gap forgets ten half-lives at most.
+    by_clock : bool
+        Whether forgetting counts time in place of samples, also of the bank: a sample that comes
+        after three usual steps of the clock is forgotten for like three.
     gate : str, Gate or callable, optional
         Whether a sample is used; see `forgetting.gates`.
     initial_covariance : float or array_like, optional
@@ -112,9 +118,8 @@ def identify(
     source = read(record, time, gap=gap, missing=missing)
     samples = build(source, formula, listed(output), listed(input), arx, offset)
     del record, source  # the table, which nobody else may hold, is as large as what is made of it
-    time_of: NDArray[np.float64] | None = None
-    if half_life is not None:
-        rule, time_of = with_half_life(rule, half_life, samples)
+    release(len(samples.y))
+    rule, time_of = with_time(rule, half_life, by_clock, samples)
     settings: dict[str, Any] = {
         "targets": samples.y.shape[1],
         "initial_covariance": initial_covariance,
@@ -151,11 +156,12 @@ def identify(
         initial_covariance=initial,
         units=np.asarray(units, dtype=np.float64),
         settings=settings,
+        members=estimator.members if isinstance(estimator, fg.Bank) else [],
     )
 
 
 def errors_without_inputs(
-    samples: Samples,
+    samples: Moved,
     past: Feedback,
     rule: Any,
     gate: Any,
@@ -167,17 +173,16 @@ def errors_without_inputs(
     None where that is the model itself, where there are no past outputs, where the rule has
     settings for each parameter, or where a function of the user's would be called once more.
     """
-    phi = samples.known
-    kept = [i for i in range(phi.shape[1]) if i in past.lags or (phi[:, i] == phi[0, i]).all()]
+    constant = constants(samples)
+    kept = [i for i in range(samples.parameters) if i in past.lags or constant[i]]
     functions = "<" in f"{rule!r} {gate!r}"
-    if not past.lags or len(kept) == phi.shape[1] or functions:
+    if not past.lags or len(kept) == samples.parameters or functions:
         return None
     try:
         estimator = estimator_for(len(kept), rule, gate=gate, **settings)
     except fg.InvalidInput:
         return None
-    part = replace(samples, phi=np.ascontiguousarray(samples.phi[:, kept]))
-    return errors_of(estimator, part, settings["dtype"], time)
+    return errors_of(estimator, replace(samples, columns=kept), time)
 
 
 def estimator_for(parameters: int, rule: Any, **settings: Any) -> Any:

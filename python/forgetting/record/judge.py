@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -13,7 +13,7 @@ from forgetting.health import Health
 from forgetting.judgement import Finding, Judgement, accuracy, covariance, inputs, poles, residuals
 from forgetting.judgement.finding import judgement
 from forgetting.record.feedback import Feedback
-from forgetting.record.samples import Samples
+from forgetting.record.moved import Moved
 from forgetting.record.scores import Scores
 from forgetting.record.trace import DEAD_ZONE, HELD, USED, Trace
 from forgetting.record.uncertainty import noise_variance
@@ -45,7 +45,7 @@ class Judged:
         At the end, where the estimator had a monitor.
     """
 
-    samples: Samples
+    samples: Moved
     trace: Trace
     scores: Scores
     feedback: Feedback
@@ -56,7 +56,7 @@ class Judged:
     @property
     def parameters(self) -> int:
         """Number n of parameters."""
-        return int(self.samples.phi.shape[1])
+        return self.samples.parameters
 
     @property
     def settled(self) -> Marks:
@@ -90,12 +90,11 @@ def judge(judged: Judged) -> Judgement:
 def of_the_whole(judged: Judged) -> Iterator[Finding | None]:
     """Findings on regressors, covariance and memory, which all outputs share."""
     samples, trace, names = judged.samples, judged.trace, judged.samples.regressors
-    complete = samples.known
-    blind = covariance.regressors(complete, names)
+    information, silent = samples.information(), samples.silent
+    blind = covariance.regressors(information, silent, names)
     yield blind
     yield windup(judged)
-    silent = np.asarray(~complete.any(axis=0), dtype=np.bool_)
-    elsewhere = silent | covariance.inseparable(complete, silent)
+    elsewhere = silent | covariance.inseparable(information, silent)
     share = trace.variance.min(axis=0) / judged.initial_variance
     if not (blind is not None and elsewhere.all()):
         yield covariance.excitation(
@@ -128,7 +127,7 @@ def windup(judged: Judged) -> Finding:
 
 def forgets(judged: Judged) -> bool:
     """Whether what happened in the first half of the record is forgotten at its end."""
-    return judged.memory < len(judged.samples.y) / 2
+    return judged.memory < len(judged.samples) / 2
 
 
 def left_out(trace: Trace) -> Finding | None:
@@ -152,8 +151,8 @@ def of_outputs(judged: Judged) -> Iterator[Finding | None]:
     settled, trace = judged.settled, judged.trace
     if trace.weights is not None:  # P of members that do not count swells the leverage of a bank
         trace = replace(trace, leverage=np.zeros_like(trace.leverage))
-    noise = noise_variance(trace)
-    before = np.vstack([np.full((1, noise.shape[1]), np.nan), noise[:-1]])
+    noise = np.full_like(trace.error, np.nan)
+    noise[1:] = noise_variance(trace)[:-1]  # before each sample
     spread = np.sqrt(1 + trace.leverage)
     for j, name in enumerate(judged.samples.outputs):
         yield beside(judged.scores, j, name)
@@ -161,7 +160,7 @@ def of_outputs(judged: Judged) -> Iterator[Finding | None]:
             yield Finding("residuals", "good", f"The one-step errors of {name} are negligible.")
             continue
         error = np.where(settled, trace.error[:, j], np.nan)
-        yield accuracy.intervals(error, spread * np.sqrt(before[:, j]), name)
+        yield accuracy.intervals(error, spread * np.sqrt(noise[:, j]), name)
         deep = judged.feedback.deepest
         past = residuals.own_past(error / spread, deep)
         yield residuals.whiteness(past, name, deep)
@@ -182,14 +181,11 @@ def negligible(scores: Scores, j: int) -> bool:
     return not scores.model[j] > ROUNDING * min(scores.last_value[j], scores.mean[j])
 
 
-def signals(judged: Judged) -> Mapping[str, Array]:
-    """The regressors that are inputs and move, by name."""
-    phi = judged.samples.phi
-    made: dict[str, Array] = {}
-    for column, name in enumerate(judged.samples.regressors):
-        if column not in judged.feedback.lags and len(made) < MOST_INPUTS:
-            made[name] = phi[:, column]
-    return made
+def signals(judged: Judged) -> Iterator[tuple[str, Array]]:
+    """The regressors that are inputs and move, by name, one after the other."""
+    places = [i for i in range(judged.parameters) if i not in judged.feedback.lags]
+    for place in places[:MOST_INPUTS]:
+        yield judged.samples.regressors[place], judged.samples.column(place)
 
 
 def stability(judged: Judged) -> Finding | None:

@@ -13,7 +13,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from forgetting.record.samples import Samples
+from forgetting.record.moved import Moved
+from forgetting.record.samples import Samples, pieces
 from forgetting.record.trace import Trace
 
 Array = NDArray[np.float64]
@@ -40,11 +41,9 @@ class Origin:
     phi: Array
     y: Array
 
-    def moved(self, samples: Samples) -> Samples:
+    def moved(self, samples: Samples) -> Moved:
         """The samples, measured from here."""
-        if self.constant is None:
-            return samples
-        return replace(samples, phi=samples.phi - self.phi, y=samples.y - self.y)
+        return Moved(samples) if self.constant is None else Moved(samples, self.phi, self.y)
 
     def theta(self, theta: Array) -> Array:
         """Estimates (T, n, m) over `moved` samples in terms of the samples; changed in place."""
@@ -97,11 +96,21 @@ def origin(samples: Samples, moves: bool = True) -> Origin:
 
 def constant_of(samples: Samples) -> tuple[int | None, float]:
     """The column that is a constant, and its value; (None, 1.0) if there is none."""
-    phi = samples.known
-    same = np.flatnonzero((phi == phi[0]).all(axis=0) & (phi[0] != 0))
-    if len(phi) < 2 or not len(same):
+    first = samples.phi[samples.complete.argmax()]
+    same = np.flatnonzero(constants(Moved(samples)) & (first != 0))
+    if samples.complete.sum() < 2 or not len(same):
         return None, 1.0
-    return int(same[0]), float(phi[0, same[0]])
+    return int(same[0]), float(first[same[0]])
+
+
+def constants(samples: Moved) -> NDArray[np.bool_]:
+    """Which regressors are the same in all complete rows, (n,)."""
+    row = int(samples.complete.argmax())
+    (first,), _ = samples.rows(slice(row, row + 1))
+    same = np.ones(samples.parameters, dtype=bool)
+    for part in pieces(len(samples)):
+        same &= (samples.known_rows(part) == first).all(axis=0)
+    return same
 
 
 def weighted_sum(weights: Array, values: Array) -> Array:

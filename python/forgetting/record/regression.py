@@ -87,13 +87,15 @@ def checked_columns(record: Record, parsed: Any, formula: str) -> pd.DataFrame:
     # What stands only under a method of an expression, (x + z).clip(0), goes along as it was read;
     # what bears the name of a function must not hide it.
     others = [name for name in record.frame.columns if name in used or name not in FUNCTIONS]
-    frame = record.frame[others].copy()
     categories = categorical(parsed, known)
+    converted: dict[str, Any] = {}
     for name in sorted(used):
         resolve(record.frame, name, record.name)
         if name not in categories:
-            frame[name] = numbers(record.frame, name, record.name)
-    return frame
+            converted[name] = numbers(record.frame, name, record.name)
+    # no copy: a column that is numbers already stays where it is
+    parts = {name: converted.get(name, record.frame[name]) for name in others}
+    return pd.DataFrame(parts, index=record.frame.index, copy=False)
 
 
 def factors(parsed: Any) -> list[Factor]:
@@ -161,7 +163,10 @@ def as_floats(table: pd.DataFrame, formula: str) -> Array:
     try:
         if "c" in kinds:
             raise ValueError("a term is complex")
-        return np.array(table.to_numpy(dtype=np.float64), order="C")
+        made = np.empty(table.shape)
+        for place in range(table.shape[1]):  # column by column: no copy of all of them
+            made[:, place] = table.iloc[:, place].to_numpy(dtype=np.float64)
+        return made
     except (ValueError, TypeError, OverflowError) as error:
         raise RecordError(
             f"the formula {shortened(formula)} gives no numbers: {plain(error)}"

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from forgetting.analysis import Excited, excited
-from forgetting.record.samples import Samples
+from forgetting.analysis import Excited
+from forgetting.analysis.excited import excited_by
+from forgetting.record.moved import Moved
 from forgetting.record.trace import USED, Trace
 
 
-def remembered(samples: Samples, trace: Trace) -> Excited:
+def remembered(samples: Moved, trace: Trace) -> Excited:
     """Excitation within the memory, at least 2 n samples and at most a quarter of the record."""
     used = trace.skipped == USED
     forgotten = 0.0
@@ -17,7 +18,8 @@ def remembered(samples: Samples, trace: Trace) -> Excited:
         forgotten = 1.0 - float(np.median(trace.forgetting_factor[used]))
         if trace.memory is not None:
             forgotten = 1.0 / max(float(np.median(trace.memory[used])), 1.0)
-    total, n = samples.phi.shape
+    total, n = len(samples), samples.parameters
     longest = max(1, min(total, max(2 * n, total // 4)))
     memory = np.ceil(1 / max(forgotten, 1e-9))
-    return excited(samples.phi, int(np.clip(memory, min(2 * n, longest), longest)))
+    window = int(np.clip(memory, min(2 * n, longest), longest))
+    return excited_by(samples.information, total, window)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -14,6 +15,9 @@ from forgetting.record.found import Found
 from forgetting.words.errors import RecordError
 
 Array = NDArray[np.float64]
+
+PIECE = 65_536
+"""Rows taken at a time where all of them at once would be a copy of a long record."""
 
 
 @dataclass(frozen=True)
@@ -56,10 +60,18 @@ class Samples:
         missing = np.isnan(self.phi).any(axis=1) | np.isnan(self.y).any(axis=1)
         return np.asarray(~missing, dtype=np.bool_)
 
+    def known_pieces(self) -> Iterator[tuple[Array, Array]]:
+        """Regressors and outputs of the complete rows, a piece of the record after the other."""
+        for part in pieces(len(self.y)):
+            complete = self.complete[part]
+            whole = slice(None) if complete.all() else complete
+            yield self.phi[part][whole], self.y[part][whole]
+
     @property
-    def known(self) -> Array:
-        """Regressors of the complete rows, (T', n); no copy if all are."""
-        return self.phi if self.complete.all() else self.phi[self.complete]
+    def usual_step(self) -> float | None:
+        """Seconds from row to row, typically; None without a clock that goes on."""
+        step = np.inf if self.clock is None else self.clock.usual_step
+        return step if np.isfinite(step) else None
 
     def check(self) -> Samples:
         """Refuse infinite regressors and a record in which no sample is complete."""
@@ -105,3 +117,15 @@ class Samples:
             return "no clock; lags count rows"
         rows = f"{self.cut} row{'s' * (self.cut != 1)}"
         return f"clock {self.clock}; it cut the lags of {rows}"
+
+
+def pieces(total: int, length: int = PIECE) -> Iterator[slice]:
+    """Cut `total` rows into slices of at most `length`.
+
+    Examples
+    --------
+    >>> [(part.start, part.stop) for part in pieces(5, 2)]
+    [(0, 2), (2, 4), (4, 5)]
+    """
+    for start in range(0, total, length):
+        yield slice(start, min(start + length, total))

@@ -78,7 +78,7 @@ def score(
     out more samples.
     """
     previous = last_measured(samples.y)
-    scored = started(samples) & ~np.isnan(previous).any(axis=1)
+    scored = scored_samples(samples, previous)
     scored &= True if among is None else among
     level = samples.y[scored].mean(axis=0) if scored.any() else 0.0
     alone = error_without_inputs
@@ -90,6 +90,12 @@ def score(
         without_inputs=None if alone is None else rms(alone[scored]),
         samples=int(scored.sum()),
     )
+
+
+def scored_samples(samples: Samples, previous: Array | None = None) -> NDArray[np.bool_]:
+    """Samples that count, (T,); `previous` (T, m) are the outputs measured last, if known."""
+    previous = last_measured(samples.y) if previous is None else previous
+    return np.asarray(started(samples) & ~np.isnan(previous).any(axis=1))
 
 
 def started(samples: Samples) -> NDArray[np.bool_]:

@@ -16,7 +16,9 @@ from numpy.typing import ArrayLike, NDArray
 import forgetting as fg
 from forgetting.analysis import Certificate, certify
 from forgetting.record.identification import Identification
+from forgetting.record.moved import as_run
 from forgetting.record.origin import origin
+from forgetting.record.samples import pieces
 
 Array = NDArray[np.float64]
 
@@ -40,7 +42,9 @@ class InUnits:
 def in_units(run: Any, scale: Array) -> InUnits:
     """The outputs of `run`, P times `scale`."""
     after, prior = run.covariance * scale, run.prior_covariance * scale
-    return InUnits(run.error, run.forgetting_factor, run.skipped, run.weight, after, prior)
+    # of several outputs as targets of one row, not as rows
+    error = run.error[:, np.newaxis] if run.error.ndim == 2 else run.error
+    return InUnits(error, run.forgetting_factor, run.skipped, run.weight, after, prior)
 
 
 def theory(
@@ -66,29 +70,28 @@ def theory(
         Rows of the record before those.
     """
     samples = origin(found.samples, moves=initial_covariance is None).moved(found.samples)
-    n, total = samples.phi.shape[1], len(samples.y)
+    n, total = samples.parameters, len(samples)
     start = max(0, total - max(MOST // n**2, 2 * n))
     estimator = fg.RLS(
         n,
         rule=rule,
         gate=gate,
-        targets=samples.y.shape[1],
+        targets=samples.targets,
         initial_covariance=initial_covariance,
         dtype=dtype,
     )
-    phi, y = (np.ascontiguousarray(part, dtype=dtype) for part in (samples.phi, samples.y))
-    y = y if y.shape[1] > 1 else y[:, 0]
-    if start:
-        estimator.run(phi[:start], y[:start], outputs=(), missing="skip")
+    for part in pieces(start):
+        phi, y = as_run(*samples.rows(part), dtype)
+        estimator.run(phi, y, outputs=(), missing="skip")
     known = start > 0 or initial_covariance is not None
     scale = np.outer(found.units, found.units)
     before = np.asarray(estimator.covariance, dtype=np.float64) * scale if known else None
-    run = estimator.run(phi[start:], y[start:], outputs=OUTPUTS, missing="skip")
-    part = in_units(run, scale)
-    regressors = samples.phi[start:] / found.units
+    regressors, outputs = samples.rows(slice(start, None))
+    phi, y = as_run(regressors, outputs, dtype)
+    run = estimator.run(phi, y, outputs=OUTPUTS, missing="skip")
     made = certify(
-        part,
-        regressors,
+        in_units(run, scale),
+        regressors / found.units,
         initial_covariance=before,
         rule=rule if initial_covariance is not None else None,
         names=list(samples.regressors),

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 import forgetting as fg
 from forgetting.record.half_life import LastTime
-from forgetting.record.samples import Samples
+from forgetting.record.moved import Moved, as_run
+from forgetting.record.samples import pieces
 
 Array = NDArray[np.float64]
 Progress = Callable[[int, int], None]
@@ -72,6 +73,9 @@ class Trace:
         Of a bank: over how many samples it remembers.
     weights : ndarray, shape (members,), or None
         Of a bank: how far each member is believed at the end.
+    weights_path : ndarray, shape (K, members), or None
+        Of a bank: the weights, on average over each piece of the record that ends with one of
+        `rows`.
     covariance : ndarray, shape (n, n)
         P after the last sample.
     """
@@ -90,11 +94,12 @@ class Trace:
     covariance: Array
     memory: Array | None = None
     weights: Array | None = None
+    weights_path: Array | None = None
 
 
 def run(
     estimator: Any,
-    samples: Samples,
+    samples: Moved,
     progress: Progress | None = None,
     time: Array | None = None,
 ) -> Trace:
@@ -102,21 +107,17 @@ def run(
 
     With the ``time`` of each, (T,), forgetting counts time in place of samples.
     """
-    dtype = np.dtype(estimator.dtype)
-    phi = np.ascontiguousarray(samples.phi, dtype=dtype)
-    y = np.ascontiguousarray(samples.y if samples.y.shape[1] > 1 else samples.y[:, 0], dtype=dtype)
-    total = len(y)
+    total, n = len(samples), samples.parameters
     last = LastTime()
-    history = History(samples, isinstance(estimator, fg.Bank))
+    history = History(total, n, samples.targets, isinstance(estimator, fg.Bank))
     rows: list[int] = []
     covariances: list[NDArray[Any]] = []
-    for start, stop in chunks(total, phi.shape[1]):
+    for start, stop in chunks(total, n):
+        part = slice(start, stop)
         try:
-            part = slice(start, stop)
+            phi, y = as_run(*samples.rows(part), estimator.dtype)
             when = None if time is None else last.ahead_of(time[part])
-            piece = estimator.run(
-                phi[part], y[part], outputs=tuple(history.names), missing="skip", time=when
-            )
+            piece = estimator.run(phi, y, outputs=history.outputs, missing="skip", time=when)
         except (fg.InvalidInput, fg.NumericalRange) as error:
             raise type(error)(in_rows(str(error), start)) from None
         if time is not None:
@@ -127,11 +128,12 @@ def run(
         if progress is not None:
             progress(stop, total)
     # all in the units of the end: those of before would show as steps
-    units = np.ones(phi.shape[1]) if estimator.units is None else estimator.units
+    units = np.ones(n) if estimator.units is None else estimator.units
     path = np.array(covariances)
     return Trace(
         **history.arrays,
         weights=np.asarray(estimator.weights) if isinstance(estimator, fg.Bank) else None,
+        weights_path=np.array(history.weights) if history.bank else None,
         rows=np.array(rows),
         eigenvalues=np.linalg.eigvalsh(path * np.outer(units, units)),
         covariances=path,
@@ -142,18 +144,26 @@ def run(
 class History:
     """What a run keeps of every sample, filled piece by piece: nothing is there twice."""
 
-    def __init__(self, samples: Samples, bank: bool) -> None:
-        total, outputs, n = len(samples.y), samples.y.shape[1], samples.phi.shape[1]
+    def __init__(self, total: int, n: int, outputs: int, bank: bool) -> None:
         shapes = {"theta": (total, n, outputs), "error": (total, outputs), "variance": (total, n)}
         kinds: dict[str, Any] = {"skipped": np.uint8, "gate": np.uint8, "windup": np.bool_}
+        self.bank = bank
         self.names = (*HISTORY, "memory") if bank else HISTORY
+        self.weights: list[Array] = []
         self.arrays: dict[str, Any] = {
             name: np.empty(shapes.get(name, (total,)), dtype=kinds.get(name, np.float64))
             for name in self.names
         }
 
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        """What a run is asked for."""
+        return (*self.names, "weights") if self.bank else self.names
+
     def put(self, start: int, stop: int, piece: Any) -> None:
         """Put what a piece of the run kept in its place."""
+        if self.bank:
+            self.weights.append(np.asarray(piece.weights, dtype=np.float64).mean(axis=0))
         for name in self.names:
             place = self.arrays[name][start:stop]
             place[...] = getattr(piece, name).reshape(place.shape)
@@ -179,15 +189,20 @@ def chunks(total: int, parameters: int) -> list[tuple[int, int]]:
     return [(start, min(start + length, total)) for start in range(0, total, length)]
 
 
-def errors_without_forgetting(samples: Samples, settings: dict[str, Any]) -> Array:
+def errors_without_forgetting(samples: Moved, settings: dict[str, Any]) -> Array:
     """One-step errors (T, m) of the same model with the rule that never forgets."""
-    estimator = fg.RLS(samples.phi.shape[1], rule=fg.rule("none"), **settings)
-    return errors_of(estimator, samples, settings["dtype"])
+    estimator = fg.RLS(samples.parameters, rule=fg.rule("none"), **settings)
+    return errors_of(estimator, samples)
 
 
-def errors_of(estimator: Any, samples: Samples, dtype: str, time: Array | None = None) -> Array:
+def errors_of(estimator: Any, samples: Moved, time: Array | None = None) -> Array:
     """One-step errors (T, m) of an estimator over all samples; `time` (T,) if it counts."""
-    y = samples.y if samples.y.shape[1] > 1 else samples.y[:, 0]
-    phi, y = (np.ascontiguousarray(each, dtype=dtype) for each in (samples.phi, y))
-    result = estimator.run(phi, y, outputs=("error",), missing="skip", time=time)
-    return np.asarray(result.error, dtype=np.float64).reshape(samples.y.shape)
+    errors, last = np.empty((len(samples), samples.targets)), LastTime()
+    for part in pieces(len(samples)):
+        phi, y = as_run(*samples.rows(part), estimator.dtype)
+        when = None if time is None else last.ahead_of(time[part])
+        found = estimator.run(phi, y, outputs=("error",), missing="skip", time=when)
+        errors[part] = np.asarray(found.error).reshape(len(y), -1)
+        if time is not None:
+            last.note(time[part], samples.complete[part])
+    return errors

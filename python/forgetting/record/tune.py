@@ -125,8 +125,7 @@ def tune(
 
 def problem(samples: Samples) -> Problem:
     """The samples as the search takes them."""
-    moved = origin(samples).moved(samples)
-    return Problem(samples.phi, samples.y, (moved.phi, moved.y))
+    return Problem(samples.phi, samples.y, origin(samples).moved(samples).rows(slice(None)))
 
 
 def models_of(

@@ -37,13 +37,18 @@ Array = NDArray[np.float64]
 def noise_variance(trace: Trace) -> Array:
     """Running noise variance of each output, (T, m); NaN until n + 1 samples were used."""
     used = trace.skipped == USED
-    counted = used & (np.cumsum(used) > trace.theta.shape[1])
-    normalised = trace.error**2 / (1.0 + trace.leverage[:, None])
-    total = np.cumsum(np.where(counted[:, None], normalised, 0.0), axis=0)
-    count = np.cumsum(counted)[:, None]
-    return np.where(count > 0, total / np.maximum(count, 1), np.nan)
+    counted = (used & (np.cumsum(used) > trace.theta.shape[1]))[:, None]
+    # in place: as long as the record, and so never there twice
+    mean = trace.error**2
+    mean /= 1.0 + trace.leverage[:, None]
+    mean[~counted[:, 0]] = 0.0
+    np.cumsum(mean, axis=0, out=mean)
+    count = np.cumsum(counted, axis=0)
+    mean /= np.maximum(count, 1)
+    mean[count[:, 0] == 0] = np.nan
+    return mean
 
 
-def standard_errors(trace: Trace) -> Array:
-    """Standard error of every parameter after every sample, (T, n, m)."""
-    return np.sqrt(trace.variance[:, :, None] * noise_variance(trace)[:, None, :])
+def standard_errors(variance: Array, noise_variance: Array) -> Array:
+    """Standard errors of parameters by their variances in P, as it was after the same samples."""
+    return np.asarray(np.sqrt(variance * noise_variance))

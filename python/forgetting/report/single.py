@@ -14,6 +14,7 @@ from forgetting.record.identification import Identification
 from forgetting.report.page import Block, Figure, Page, Table, write
 from forgetting.report.svg import inline
 from forgetting.report.trust import trust
+from forgetting.words.duration import spoken
 from forgetting.words.rounding import brief, with_error
 
 DRAWN = 24
@@ -81,7 +82,9 @@ def memory_figure(found: Identification) -> Figure:
     """Over how many samples the estimate remembers."""
     memory = found.memory
     shown = f"{brief(memory, 3)} samples" if np.isfinite(memory) else "all samples"
-    return Figure("memory at the end", shown, f"for {found.theta.shape[1]} parameters")
+    step = found.samples.usual_step
+    time = f"{spoken(memory * step)}, " if step is not None and np.isfinite(memory) else ""
+    return Figure("memory at the end", shown, f"{time}for {found.theta.shape[1]} parameters")
 
 
 def percent(value: float) -> str:
@@ -169,12 +172,19 @@ def history(found: Identification, indices: list[int], output: int) -> Markup:
 
 
 def memory(found: Identification) -> Block:
-    """Forgetting factor."""
+    """How fast the parameters change, or how fast the rule forgets."""
+    if found.memories is not None:
+        figure, ax = plt.subplots(figsize=(9.4, 3.0), layout="constrained")
+        plot.memories(found, ax)
+        text = (
+            f"{found.memories.describe()} The darker, the more the bank believes in members that "
+            "remember so many samples."
+        )
+        picture = inline(figure, "weights of the members of the bank over time, by their memory")
+        return Block("How fast do the parameters change?", text, pictures=[picture])
     figure, ax = plt.subplots(figsize=(9.4, 1.9), layout="constrained")
     plot.forgetting_factor(found, ax)
-    return Block(
-        "Forgetting", pictures=[inline(figure, "forgetting factor, or memory of a bank, over time")]
-    )
+    return Block("Forgetting", pictures=[inline(figure, "forgetting factor over time")])
 
 
 def notes() -> Block:

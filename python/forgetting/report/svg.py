@@ -39,8 +39,8 @@ METADATA = re.compile(r"<metadata>.*?</metadata>", re.DOTALL)
 NAMESPACES = re.compile(r'\s+xmlns(:\w+)?="[^"]*"')
 FONT = re.compile(r"font: ([^;\"]*?)px '[^;\"]*")
 PATH = re.compile(r' d="[^"]*"')
-DIGITS = re.compile(r"(\.\d\d)\d+")
-"""A path's points are in 1/72 inch: two decimals are finer than any screen, and half the file."""
+DIGITS = re.compile(r"(\.\d)\d+")
+"""A path's points are in 1/72 inch: one decimal is finer than a screen, and a third of the file."""
 
 
 def inline(figure: Figure, description: str) -> Markup:

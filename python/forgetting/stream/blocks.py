@@ -36,9 +36,9 @@ def pieces(block: bytes, most: int = MOST) -> Iterator[bytes]:
 
 
 def first_cells(form: Form, lines: Sequence[str]) -> dict[str, Any]:
-    """Cells of the first line below the names, by name."""
+    """Cells of the first line below names and units, by name."""
     if form.kind == "json":
         found: dict[str, Any] = json.loads(lines[0])
         return found
-    line = lines[1] if form.is_header(lines[0]) else lines[0]
+    line = next((line for line in lines if not form.is_header(line)), lines[0])
     return dict(zip(form.names, split(line, form.separator), strict=False))

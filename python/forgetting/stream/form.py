@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
 import pandas as pd
@@ -12,6 +12,7 @@ import pandas as pd
 from forgetting.record.columns import resolve
 from forgetting.record.formats import cells
 from forgetting.record.formats.dialect import NAMES, SEPARATORS, dialect, is_aside, split
+from forgetting.record.formats.layout import is_below, unit_like
 from forgetting.record.names import clean, distinct
 from forgetting.words.errors import RecordError
 
@@ -33,6 +34,10 @@ class Form:
         Between cells, and within numbers.
     header : str
         The line of names as it was, to be known again; empty without one.
+    unit_line : str
+        The line of units below it as it was; empty without one.
+    units : dict of str to str
+        Unit of each column that has one.
     """
 
     kind: str
@@ -40,6 +45,8 @@ class Form:
     separator: str = ""
     decimal: str = "."
     header: str = ""
+    unit_line: str = ""
+    units: dict[str, str] = field(default_factory=dict)
 
     def column(self, name: str) -> str:
         """A column's name, if there is such a column; the error lists those there are."""
@@ -55,8 +62,8 @@ class Form:
         return cls(**(state | {"names": tuple(state["names"])}))
 
     def is_header(self, line: str) -> bool:
-        """Whether a line is that of the names."""
-        return bool(self.header) and line.strip() == self.header
+        """Whether a line is that of the names, or that of their units."""
+        return bool(line.strip()) and line.strip() in (self.header, self.unit_line)
 
     def check_first(self, line: str) -> None:
         """Refuse the first line of a further input when it holds other names.
@@ -87,9 +94,9 @@ def recognised(
     Parameters
     ----------
     lines : sequence of str
-        The first lines, without blank ones and comments.
+        The first three lines, or as many as there are, without blank ones and comments.
     separator : str or None
-        Given, else found in the line of names and the first line below it.
+        Given, else found in the line of names and the first line of numbers.
     names : sequence of str or None
         Given, for a stream without a line of names.
 
@@ -103,20 +110,47 @@ def recognised(
     first = lines[0].strip()
     if first.startswith("{"):
         return of_object(first)
-    if names is None and len(lines) < 2:
+    unit_line = lines[1].strip() if has_units(lines, separator) else ""
+    table = [first, *lines[2 if unit_line else 1 :][:1]]
+    if len(table) < 2 and (names is None or unit_line):
         return None
-    found = dialect(lines[:2] if separator is None else [retold(each, separator) for each in lines])
+    found = dialect(table if separator is None else [retold(each, separator) for each in table])
     if found is None:
         raise RecordError(
             f"the stream begins with {first[:200]!r}, and no numbers stand below it; the first "
             "line holds the names of the columns, unless --names gives them"
         )
     sign = found.separator if separator is None else separator
-    if names is not None:
-        own = tuple(distinct(names))
-        has_header = split(first, sign) == list(names)
-        return Form("delimited", own, sign, found.decimal, first if has_header else "")
-    return Form("delimited", tuple(distinct(split(first, sign))), sign, found.decimal, first)
+    own = tuple(distinct(split(first, sign) if names is None else names))
+    has_header = names is None or split(first, sign) == list(names)
+    units = units_of(own, split(unit_line, sign)) if unit_line and has_header else {}
+    if not units:
+        unit_line = ""
+    header = first if has_header else ""
+    return Form("delimited", own, sign, found.decimal, header, unit_line, units)
+
+
+def has_units(lines: Sequence[str], separator: str | None) -> bool:
+    """Whether the second line holds units of the names in the first, split in any way.
+
+    Numbers are none, but for the 1 of what has no unit.
+    """
+    if len(lines) < 2:
+        return False
+    for sign in SEPARATORS if separator is None else (separator,):
+        names, row = split(lines[0], sign), split(lines[1], sign)
+        if len(row) != len(names) or (sign and len(row) < 2):
+            continue
+        words = all(cells.kind(cell) == "text" or cell in ("", "-", "1") for cell in row)
+        if words and row != names and unit_like(row) and is_below(row, names):
+            return True
+    return False
+
+
+def units_of(names: Sequence[str], row: Sequence[str]) -> dict[str, str]:
+    """Units by name; a remark, or the sign of none, is no unit."""
+    pairs = zip(names, map(cells.bare, row), strict=False)
+    return {name: unit for name, unit in pairs if unit}
 
 
 def retold(line: str, separator: str) -> str:

@@ -79,7 +79,9 @@ class Stamps:
         return np.where(known, elapsed, np.nan)
 
 
-def find_stamps(first: Mapping[str, Any], named: str | None) -> Stamps | None:
+def find_stamps(
+    first: Mapping[str, Any], named: str | None, units: Mapping[str, str] | None = None
+) -> Stamps | None:
     """The time column, found in the first line as the clock of a record is.
 
     Parameters
@@ -88,6 +90,8 @@ def find_stamps(first: Mapping[str, Any], named: str | None) -> Stamps | None:
         Cells of the first line: text, or values of JSON.
     named : str or None
         The column, "none" for no clock, None to look for one.
+    units : mapping of str to str, optional
+        Units of columns.
 
     Raises
     ------
@@ -102,7 +106,7 @@ def find_stamps(first: Mapping[str, Any], named: str | None) -> Stamps | None:
     'zoned'
     """
     cells = {name: as_number(value) for name, value in first.items() if not nested(value)}
-    clock = find_clock(pd.DataFrame([cells]), named, None, {}, "the stream")
+    clock = find_clock(pd.DataFrame([cells]), named, None, units or {}, "the stream")
     if clock is None:
         return None
     if clock.name not in cells:

@@ -105,19 +105,25 @@ class Stream:
         self.begins, self.pending = True, b""
 
     def _below_names(self, block: bytes) -> bytes:
-        """The block without a line of names at its top, which would keep it from being a table."""
+        """The block without names and units at its top, which would keep it from being a table."""
         assert self.form is not None
-        end = block.index(b"\n") + 1
-        return block[end:] if self.form.is_header(decoded(block[:end])) else block
+        start = 0
+        while start < len(block):
+            end = block.index(b"\n", start) + 1
+            line = decoded(block[start:end])
+            if not (self.form.is_header(line) or is_aside(line)):
+                break
+            start = end
+        return block[start:]
 
     def _begin(self) -> bool:
         """Recognise the first lines; whether that was possible."""
         every = map(decoded, io.BytesIO(self.pending))
-        lines = list(islice((line for line in every if not is_aside(line)), 2))
+        lines = list(islice((line for line in every if not is_aside(line)), 3))
         form = recognised(lines, self.settings.separator, self.settings.names)
         if form is None:
             return False
-        self._prepare(form, find_stamps(first_cells(form, lines), self.settings.time))
+        self._prepare(form, find_stamps(first_cells(form, lines), self.settings.time, form.units))
         return True
 
     def _prepare(self, form: Form, stamps: Stamps | None) -> None:

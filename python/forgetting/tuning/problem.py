@@ -39,7 +39,13 @@ class Problem:
     @property
     def complete(self) -> Mask:
         """Rows without a missing value, (T,)."""
-        return ~np.isnan(np.hstack([self.phi, self.y])).any(axis=1)  # type: ignore[return-value]
+        missing = np.isnan(self.phi).any(axis=1) | np.isnan(self.y).any(axis=1)
+        return np.asarray(~missing, dtype=np.bool_)
+
+    def part(self, rows: slice) -> Problem:
+        """Some rows, in place of all."""
+        phi, y = self.moved
+        return Problem(self.phi[rows], self.y[rows], (phi[rows], y[rows]))
 
 
 @dataclass(frozen=True)

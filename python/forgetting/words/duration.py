@@ -6,6 +6,8 @@ import re
 from datetime import timedelta
 from typing import Any
 
+from forgetting.words.rounding import brief
+
 SECONDS = {
     "ns": 1e-9,
     "us": 1e-6,
@@ -74,3 +76,23 @@ def _of_text(text: str) -> float:
     if not parts or len(units) < len(parts) or PART.sub("", text):
         raise ValueError(f"{text!r} is no length of time such as 10min, 2h or 1.5 d")
     return sum(number * unit for (number, _), unit in zip(parts, units, strict=True))
+
+
+def spoken(seconds: float) -> str:
+    """A length of time in the unit in which a person would say it.
+
+    Examples
+    --------
+    >>> spoken(0.004), spoken(12.34), spoken(5400), spoken(200000), spoken(6.4e7)
+    ('4 ms', '12 s', '1.5 h', '2.3 days', '740 days')
+    """
+    size, unit = unit_for(seconds)
+    return f"{brief(seconds / size, 2)} {unit}"
+
+
+def unit_for(seconds: float) -> tuple[float, str]:
+    """Seconds of the unit in which to say a length of time, and the unit."""
+    for size, unit in ((86400.0, "days"), (3600.0, "h"), (60.0, "min"), (1.0, "s"), (1e-3, "ms")):
+        if seconds >= (1.5 if size > 1 else 1.0) * size:
+            return size, unit
+    return 1e-6, "µs"

@@ -92,8 +92,13 @@ class Clock:
         """Seconds above which a step is a gap."""
         if self.gap is not None:
             return self.gap
+        return GAP * self.usual_step
+
+    @cached_property
+    def usual_step(self) -> float:
+        """Median of the steps that go on, in seconds; infinite without any."""
         forward = self.steps[self.steps > 0]
-        return GAP * float(np.median(forward)) if len(forward) else np.inf
+        return float(np.median(forward)) if len(forward) else np.inf
 
     @property
     def runs_forward(self) -> bool:

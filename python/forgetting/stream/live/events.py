@@ -11,8 +11,10 @@ from typing import Any
 
 import numpy as np
 
+from forgetting.record.units import parameter_unit
 from forgetting.stream.output import Batch, Output
 from forgetting.stream.stream import Stream
+from forgetting.words.rounding import with_unit
 
 INTERVAL = 0.1
 """Seconds between two events at least."""
@@ -108,10 +110,11 @@ class Events:
 
     def beginning(self, first: int) -> dict[str, Any]:
         """What a page must know before event `first`: names, and the alarms told before it."""
-        model = self.stream.model
+        model, form = self.stream.model, self.stream.form
+        units = {} if form is None else form.units
         several = len(model.outputs) > 1
         names = [
-            f"{output}: {name}" if several else name
+            with_unit(f"{output}: {name}" if several else name, parameter_unit(output, name, units))
             for output in model.outputs
             for name in model.regressors
         ]
@@ -119,7 +122,7 @@ class Events:
             before = [alarm for count, alarm in self.alarms if count < first]
         return {
             "parameters": names,
-            "outputs": list(model.outputs),
+            "outputs": [with_unit(output, units.get(output)) for output in model.outputs],
             "model": f"{', '.join(model.outputs)} on {', '.join(model.regressors)}",
             "alarms": before,
         }
