@@ -112,7 +112,7 @@ def residual_tests(
     of = [across(filled, known, signal, lags, own) for signal in signals.T]
     past = own_past(errors, fitted)
     white = errors if past is None else whitened(errors, past.prediction)
-    movements = dict(zip(names, signals.T, strict=True))
+    movements = list(zip(names, signals.T, strict=True))
     return ResidualTests(
         lags=np.arange(1, lags + 1),
         autocorrelation=own[1:],
