@@ -25,6 +25,7 @@ def identify(
     output: options.Outputs = None,
     input: options.Inputs = None,
     arx: options.Orders = None,
+    model: options.ModelText = None,
     offset: options.Offset = True,
     time: options.Time = None,
     gap: options.Gap = None,
@@ -54,11 +55,11 @@ def identify(
 ) -> None:
     """Identify a model from a measured record.
 
-    Say the model by --formula, or by --output, --input and --arx.
+    Say the model by --formula, or by --output, --input and --arx or --model.
 
     Prints parameters with standard errors, and the one-step error beside two baselines.
     """
-    source, model = told(**locals())
+    source, said = told(**locals())
     from forgetting.record.identify import identify as identify_record
 
     check_targets(record, report, estimates, plot)
@@ -73,7 +74,8 @@ def identify(
     with progress_bar(f"identifying {record.name}") as progress:
         found = identify_record(
             source(),
-            **model,
+            **said,
+            model=model,
             rule=chosen,
             half_life=half_life,
             by_clock=by_clock,

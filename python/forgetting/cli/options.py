@@ -49,6 +49,16 @@ Orders = Annotated[
         metavar="NA,NB,NK",
     ),
 ]
+ModelText = Annotated[
+    str | None,
+    option(
+        MODEL,
+        "Structure and orders in the place of --arx: fir, ar, arx, arma, armax, oe or bj, as in "
+        "armax:na=2,nb=2,nc=1,nk=1; nb=2/1 for two inputs.",
+        "--model",
+        metavar="NAME:ORDERS",
+    ),
+]
 Offset = Annotated[
     bool,
     option(

@@ -53,9 +53,9 @@ def weights(run: Run, labels: Sequence[str] | None = None, ax: Axes | None = Non
     if labels is not None and len(labels) != count:
         raise InvalidInput(f"labels has {len(labels)} names, allowed: one for each of {count}")
     ax = labelled(ax, "weight of a member", "sample")
-    stretches = [thinning.stretches(column, thinning.POINTS) for column in run.weights.T]
-    means = np.array([np.nanmean(part, axis=1) for part in stretches])
-    x = np.arange(means.shape[1]) * stretches[0].shape[1]
+    parts = list(thinning.stretches(len(run.weights), thinning.POINTS))
+    means = np.array([np.nanmean(run.weights[part], axis=0) for part in parts]).T
+    x = np.array([part.start for part in parts])
     colours = plt.get_cmap("viridis")(np.linspace(DARK, BRIGHT, count))
     names = None if labels is None else list(map(literal, labels))
     ax.stackplot(x, means, colors=colours, labels=names or (), lw=0)

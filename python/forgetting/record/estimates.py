@@ -47,8 +47,8 @@ def table(
     if samples.clock is not None:
         columns["time"] = samples.clock.values.iloc[rows].to_numpy()
     for j, output in enumerate(samples.outputs):
-        columns[f"measured:{output}"] = samples.y[rows, j]
-        columns[f"predicted:{output}"] = samples.y[rows, j] - trace.error[rows, j]
+        columns[f"measured:{output}"] = samples.as_measured[rows, j]
+        columns[f"predicted:{output}"] = samples.as_measured[rows, j] - trace.error[rows, j]
         columns[f"error:{output}"] = trace.error[rows, j]
     columns["forgetting_factor"] = trace.forgetting_factor[rows]
     columns["leverage"] = trace.leverage[rows]

@@ -154,7 +154,7 @@ class Identification(Counts):
     @property
     def prediction(self) -> Array:
         """One-step prediction of each output, (T, m); NaN where the sample was missing."""
-        return self.samples.y - self.trace.error
+        return self.samples.as_measured - self.trace.error
 
     @property
     def parameters(self) -> pd.DataFrame:

@@ -20,6 +20,7 @@ from forgetting.record.missing import Words
 from forgetting.record.moved import Moved
 from forgetting.record.names import clean
 from forgetting.record.origin import constants, origin
+from forgetting.record.polynomial import Learned, learned, linear
 from forgetting.record.read import Record, read
 from forgetting.record.release import release
 from forgetting.record.remembered import remembered
@@ -39,6 +40,7 @@ def identify(
     output: str | Sequence[str] = (),
     input: str | Sequence[str] = (),
     arx: Sequence[int] | None = None,
+    model: str | None = None,
     offset: bool = True,
     rule: Any = "auto",
     half_life: Any = None,
@@ -63,6 +65,10 @@ def identify(
         Columns of an ARX model; several outputs share one regressor.
     arx : sequence of three int, optional
         Orders na, nb, nk of the ARX model.
+    model : str, optional
+        In the place of `arx` a structure and its orders, such as ``"armax:na=2,nb=2,nc=1,nk=1"``;
+        also fir, ar, arx, arma, oe and bj, see `forgetting.ARMAX` and its neighbours. What is said
+        of excitation and windup is said of the gradients of the prediction.
     rule : str or Rule
         Forgetting rule; "auto" mixes rules of all speeds, see `forgetting.Bank`.
     half_life : float, str or duration, optional
@@ -116,7 +122,21 @@ def identify(
     (200, 0)
     """
     source = read(record, time, gap=gap, missing=missing)
-    samples = build(source, formula, listed(output), listed(input), arx, offset)
+    columns = listed(output), listed(input)
+    course: Learned | None = None
+    if model is not None:
+        if formula is not None or arx is not None:
+            raise RecordError("say the model once: as a model, by arx, or by a formula")
+        arx = linear(model)
+    if model is None or arx is not None:
+        samples = build(source, formula, *columns, arx, offset)
+    else:
+        if half_life is not None or by_clock:
+            raise RecordError(f"the model {model} forgets by samples; leave out what counts time")
+        chosen = {"rule": rule, "gate": gate, "dtype": dtype}
+        chosen["initial_covariance"] = initial_covariance
+        course = learned(source, *columns, model, offset, **chosen)
+        samples = course.samples
     del record, source  # the table, which nobody else may hold, is as large as what is made of it
     release(len(samples.y))
     rule, time_of = with_time(rule, half_life, by_clock, samples)
@@ -126,13 +146,18 @@ def identify(
         "dtype": dtype,
     }
     estimator = estimator_for(samples.phi.shape[1], rule, gate=gate, **settings)
-    here = origin(samples, moves=initial_covariance is None)
+    here = origin(samples, moves=initial_covariance is None and course is None)
     initial = np.asarray(estimator.covariance, dtype=np.float64)
     moved = here.moved(samples)
     trace = run(estimator, moved, progress, time_of)
+    trace = trace if course is None else course.put(trace)
     units = np.ones(len(initial)) if estimator.units is None else estimator.units
     past = feedback(samples)
-    plain = errors_without_forgetting(moved, settings)
+    plain = (
+        errors_without_forgetting(moved, settings)
+        if course is None
+        else course.error_without_forgetting
+    )
     alone = errors_without_inputs(moved, past, rule, gate, settings, time_of)
     scores = score(samples, trace.error, plain, alone)
     excited = remembered(moved, trace)
@@ -148,7 +173,7 @@ def identify(
     judgement = judge(judged)  # before the trace is changed
     return Identification(
         samples=samples,
-        trace=here.back(trace),
+        trace=here.back(trace) if course is None else course.blur(trace),
         rule=rule_of(estimator, rule),
         scores=scores,
         judgement=judgement,

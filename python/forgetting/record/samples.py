@@ -42,6 +42,9 @@ class Samples:
         Rows in which a lag was there, but on the other side of a gap of the clock.
     found : Found
         How the record was read.
+    measured : ndarray, shape (T, m), or None
+        The outputs as they were measured, where y is what a model with coloured noise made of them
+        so that it is linear in the parameters.
     """
 
     phi: Array
@@ -53,6 +56,12 @@ class Samples:
     source: str
     cut: int = 0
     found: Found = field(default_factory=Found)
+    measured: Array | None = None
+
+    @property
+    def as_measured(self) -> Array:
+        """The outputs as they were measured, (T, m)."""
+        return self.y if self.measured is None else self.measured
 
     @cached_property
     def complete(self) -> NDArray[np.bool_]:

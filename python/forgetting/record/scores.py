@@ -77,16 +77,17 @@ def score(
     needs an earlier measured output, which the last-value baseline repeats. `among` (T,) leaves
     out more samples.
     """
-    previous = last_measured(samples.y)
+    y = samples.as_measured
+    previous = last_measured(y)
     scored = scored_samples(samples, previous)
     scored &= True if among is None else among
-    level = samples.y[scored].mean(axis=0) if scored.any() else 0.0
+    level = y[scored].mean(axis=0) if scored.any() else 0.0
     alone = error_without_inputs
     return Scores(
         model=rms(error[scored]),
-        last_value=rms((samples.y - previous)[scored]),
+        last_value=rms((y - previous)[scored]),
         no_forgetting=rms(error_without_forgetting[scored]),
-        mean=rms((samples.y - level)[scored]),
+        mean=rms((y - level)[scored]),
         without_inputs=None if alone is None else rms(alone[scored]),
         samples=int(scored.sum()),
     )
@@ -94,7 +95,7 @@ def score(
 
 def scored_samples(samples: Samples, previous: Array | None = None) -> NDArray[np.bool_]:
     """Samples that count, (T,); `previous` (T, m) are the outputs measured last, if known."""
-    previous = last_measured(samples.y) if previous is None else previous
+    previous = last_measured(samples.as_measured) if previous is None else previous
     return np.asarray(started(samples) & ~np.isnan(previous).any(axis=1))
 
 
