@@ -21,7 +21,7 @@ LAYERS: dict[str, tuple[str, ...]] = {
     # types that choose instructions, and the registers of one processor
     "forgetting-cpu": ("level", "fused", "x86"),
     "forgetting": (
-        "error",  # what can be refused
+        "error defaults",  # what can be refused; what an estimator is when nothing is said
         "intervals",  # about predictions, from their errors alone
         "memory",  # where numbers are kept, and how they are saved
         "units",  # what regressors are measured in
@@ -34,6 +34,7 @@ LAYERS: dict[str, tuple[str, ...]] = {
         "estimator",  # one recursion
         "fleet bank",  # many of them: on samples of their own, or on the same
         "saved",  # all of it as bytes
+        "compact",  # one of them in as few numbers as there are
     ),
     "forgetting-runtime": (
         "error",  # what is refused, and how it is said

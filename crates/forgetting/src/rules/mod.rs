@@ -204,7 +204,7 @@ registry! {
         }
 
         fn name(&self) -> &'static str {
-            self.about().name
+            Self::called(self)
         }
     }
 }
