@@ -50,6 +50,15 @@ LAYERS: dict[str, tuple[str, ...]] = {
         "fleet bank",
         "model",  # what makes regressors of signals, with an estimator behind it
     ),
+    # what only C needs
+    "forgetting-c": (
+        "number code",  # number types; what went wrong
+        "report settings",  # structures of C
+        "model",  # what is asked of an estimator
+        "kind",  # the same as a table of functions
+        "kinds",  # every table
+        "api",  # the functions of C
+    ),
     # what only Python needs
     "forgetting-py": (
         "errors",

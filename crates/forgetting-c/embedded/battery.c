@@ -84,5 +84,6 @@ int main(void) {
     print_number("size", (uint32_t)fg_size(&KIND));
     print_number("stack", most);
     print_number("ticks", instructions);
+    print_number("loop", ticks_of_loop());
     return 0;
 }

@@ -13,6 +13,9 @@ void print_bytes(const char *name, const unsigned char *bytes, uint32_t count);
 uint32_t ticks(void);
 uint32_t ticks_since(uint32_t before);
 
+/* What the counter says of a loop of 300000 instructions. */
+uint32_t ticks_of_loop(void);
+
 /* Fills what is free below the stack; later, the bytes of it that were used. */
 void paint_stack(void);
 uint32_t painted_stack(void);

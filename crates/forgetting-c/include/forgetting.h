@@ -144,7 +144,8 @@ typedef struct fg_health_report {
  *
  * Compact kinds: one rule, n parameters, lambda the same for every sample, P0 = c I. They are small and
  * need no more memory than the numbers that they keep. A program links those that it names.
- * General kinds: any rule, rate, weighting and gate by name, 1 to 8 or to 32 parameters; for desktops.
+ * General kinds: any rule, rate, weighting and gate by name, 1 to 8 or (double)
+ * 1 to 32 parameters; for desktops.
  * Both give the same bits for the same settings.
  */
 #define FG_COMPACT_KINDS(rule)                                                                          \
@@ -157,7 +158,7 @@ FG_COMPACT_KINDS(exponential); /* everything at the same rate; may wind up */
 FG_COMPACT_KINDS(subspace);    /* in the direction of phi only; cannot wind up; parameter threshold */
 FG_COMPACT_KINDS(directional); /* the same, with another dead zone; parameter threshold */
 
-extern const fg_kind fg_general_f32_8, fg_general_f64_8, fg_general_f32_32, fg_general_f64_32;
+extern const fg_kind fg_general_f32_8, fg_general_f64_8, fg_general_f64_32;
 
 /* The compact kind of a rule for n parameters, or the smallest general kind where `rule` is null; `number`
  * is FG_F32 or FG_F64. Null if there is none. It links all kinds. */

@@ -1,7 +1,8 @@
 //! The functions that C calls. Each checks its pointers and asks the kind of the estimator.
 
 use crate::code::{Code, Why};
-use crate::kind::{Head, Kind, Number};
+use crate::kind::{Head, Kind};
+use crate::number::Number;
 use crate::report::{Health, Report};
 use crate::settings::Settings;
 use core::ffi::c_char;

@@ -2,21 +2,12 @@
 
 use crate::code::{Code, Why};
 use crate::model::Model;
+use crate::number::Number;
 use crate::report::{Health, Report};
 use crate::settings::Settings;
 use core::mem::{align_of, size_of};
 use core::ptr::NonNull;
 use core::slice::{from_raw_parts, from_raw_parts_mut};
-
-/// The type of all numbers of an estimator.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Number {
-    /// `float`
-    F32 = 4,
-    /// `double`
-    F64 = 8,
-}
 
 /// Says that memory holds an estimator.
 const MARK: u32 = 0x4647_524C;
@@ -46,7 +37,7 @@ pub struct Kind {
     pub number: Number,
     /// bytes that an estimator takes
     pub size: usize,
-    /// its address is a multiple of this
+    /// its address is a multiple of this, a power of two
     pub alignment: usize,
     /// the least and the most parameters
     pub parameters: (usize, usize),
@@ -96,7 +87,7 @@ impl Kind {
             Err(Code::Null)
         } else if size < self.size {
             Err(Code::Memory)
-        } else if memory as usize % self.alignment != 0 {
+        } else if memory as usize & self.alignment.wrapping_sub(1) != 0 {
             Err(Code::Alignment)
         } else {
             Ok(())
@@ -113,7 +104,7 @@ impl Head {
     /// # Safety
     /// `head` is null or points to memory that can be read as a head.
     pub(crate) unsafe fn kind(head: *const Self) -> Result<&'static Kind, Code> {
-        let aligned = head as usize % align_of::<Self>() == 0;
+        let aligned = head as usize & (align_of::<Self>() - 1) == 0;
         let head = NonNull::new(head.cast_mut()).ok_or(Code::Null)?;
         if !aligned {
             return Err(Code::Alignment);

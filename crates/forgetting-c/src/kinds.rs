@@ -50,7 +50,6 @@ macro_rules! general {
 general! {
     fg_general_f32_8: f32, 8;
     fg_general_f64_8: f64, 8;
-    fg_general_f32_32: f32, 32;
     fg_general_f64_32: f64, 32;
 }
 

@@ -11,13 +11,15 @@ mod code;
 mod kind;
 mod kinds;
 mod model;
+mod number;
 mod report;
 mod settings;
 
 pub use api::*;
 pub use code::{Code, Text, Why};
-pub use kind::{Kind, Number};
+pub use kind::Kind;
 pub use kinds::*;
+pub use number::Number;
 pub use report::{Health, Report};
 pub use settings::{Choice, Parameter, Settings};
 

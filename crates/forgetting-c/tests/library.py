@@ -64,7 +64,15 @@ def load() -> ctypes.CDLL:
         update = getattr(library, f"fg_update_{name}")
         update.argtypes = [c_void_p, c_void_p, c_size_t, real, c_void_p]
     library.fg_init.argtypes = [c_void_p, c_size_t, c_void_p, c_void_p, c_void_p, c_void_p]
-    library.fg_load.argtypes = [c_void_p, c_size_t, c_void_p, c_char_p, c_size_t, c_void_p, c_void_p]
+    library.fg_load.argtypes = [
+        c_void_p,
+        c_size_t,
+        c_void_p,
+        c_char_p,
+        c_size_t,
+        c_void_p,
+        c_void_p,
+    ]
     library.fg_save.argtypes = [c_void_p, c_void_p, c_size_t, c_void_p]
     return library
 

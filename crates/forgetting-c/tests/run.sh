@@ -55,8 +55,9 @@ fi
 
 if "$PYTHON" -c 'import forgetting, pytest' 2>/dev/null; then
     echo "Python's bytes, both ways"
-    FORGETTING_CPU=baseline FORGETTING_LIBRARY=$STAGE/lib/libforgetting.so "$PYTHON" -m pytest -q \
-        -p no:cacheprovider tests/test_python.py
+    PYTHONPATH=tests:${PYTHONPATH:-} FORGETTING_CPU=baseline \
+        FORGETTING_LIBRARY=$STAGE/lib/libforgetting.so \
+        "$PYTHON" -m pytest -q -p no:cacheprovider tests/test_python.py
 else
     echo "Python has no forgetting: saved states are not compared with it"
 fi

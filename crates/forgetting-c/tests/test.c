@@ -222,9 +222,9 @@ static void a_saved_estimator_goes_on(const fg_kind *kind) {
 static void kinds_are_found(void) {
     CHECK(fg_find("exponential", FG_F64, N) == &fg_exponential_f64_3);
     CHECK(fg_find("subspace", FG_F32, 8) == &fg_subspace_f32_8);
-    CHECK(fg_find(NULL, FG_F64, 8) == &fg_general_f64_8 && fg_find(NULL, FG_F32, 9) == &fg_general_f32_32);
+    CHECK(fg_find(NULL, FG_F64, 8) == &fg_general_f64_8 && fg_find(NULL, FG_F64, 9) == &fg_general_f64_32);
     CHECK(!fg_find("subspace", FG_F32, 9) && !fg_find("nothing", FG_F32, 2));
-    CHECK(!fg_find(NULL, FG_F32, 33) && !fg_find(NULL, FG_F32, 0) && !fg_find(NULL, 5, 2));
+    CHECK(!fg_find(NULL, FG_F32, 9) && !fg_find(NULL, FG_F64, 33) && !fg_find(NULL, FG_F32, 0) && !fg_find(NULL, 5, 2));
     CHECK(fg_size(NULL) == 0 && fg_alignment(NULL) == 0);
     CHECK(fg_size(&fg_exponential_f32_4) <= 128);
 }

@@ -1,17 +1,18 @@
-"""An estimator trained in Python goes on in C and back, bit for bit, for every rule, rate, weighting and
-gate that needs no function of the user's. Python is held to plain arithmetic (`FORGETTING_CPU=baseline`):
-with fused multiply-add its numbers are rounded otherwise.
+"""An estimator trained in Python goes on in C and back, bit for bit, for every rule, rate, weighting
+and gate that needs no function of the user's. Python is held to plain arithmetic
+(`FORGETTING_CPU=baseline`): with fused multiply-add its numbers are rounded otherwise.
 """
 
 from __future__ import annotations
 
 import os
 
-import forgetting as fg
 import numpy as np
 import pytest
 from library import Choice, Estimator, Settings, load
 from numpy.typing import NDArray
+
+import forgetting as fg
 
 LIBRARY = load()
 N = 3
@@ -26,7 +27,9 @@ assert os.environ.get("FORGETTING_CPU") == "baseline", "run `make test` in the f
 def names(axis: str) -> list[str]:
     """Every entry that needs no function."""
     entries = getattr(fg, axis)()
-    functions = [e["name"] for e in entries if any(p["kind"] == "function" for p in e["parameters"])]
+    functions = [
+        e["name"] for e in entries if any(p["kind"] == "function" for p in e["parameters"])
+    ]
     return [e["name"] for e in entries if e["name"] not in functions]
 
 
@@ -69,8 +72,10 @@ def test_compact(rule: str, n: int, dtype: str) -> None:
     check_both_ways(rls, rule, dtype, n)
 
 
-@pytest.mark.parametrize("dtype", DTYPES)
-@pytest.mark.parametrize("n", [1, 4, 8, 9, 17, 32])
+@pytest.mark.parametrize(
+    ("n", "dtype"),
+    [(n, dtype) for n in (1, 4, 8) for dtype in DTYPES] + [(n, "float64") for n in (9, 17, 32)],
+)
 def test_sizes(n: int, dtype: str) -> None:
     """General estimators of every class of sizes, with the defaults and the units of the data."""
     check_both_ways(fg.RLS(n, dtype=dtype), None, dtype, n)

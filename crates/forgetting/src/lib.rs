@@ -41,6 +41,11 @@ pub mod rules;
 mod sample;
 pub mod saved;
 
+/// The example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;
+
 #[cfg(test)]
 mod testing;
 mod units;

@@ -2,9 +2,9 @@
 
 use super::{Float, Model};
 use crate::code::{Code, Why};
+use crate::number::Number;
 use crate::report::{Health, Report};
 use crate::settings::Settings;
-use crate::Number;
 use forgetting::choice::About;
 use forgetting::{Compact, Error, Fixed, Forgetting, Packed, Size};
 

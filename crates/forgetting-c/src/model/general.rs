@@ -2,9 +2,9 @@
 
 use super::{Float, Model};
 use crate::code::Why;
+use crate::number::Number;
 use crate::report::{Health, Report};
 use crate::settings::{Choice, Settings};
-use crate::Number;
 use forgetting::choice::{About, Defaults, Value, Values};
 use forgetting::defaults::{PROCESS_NOISE, RULE, RULE_OF_DATA};
 use forgetting::gates::AnyGate;

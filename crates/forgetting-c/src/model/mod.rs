@@ -5,7 +5,7 @@ pub mod compact;
 pub mod general;
 
 use crate::code::Why;
-use crate::kind::Number;
+use crate::number::Number;
 use crate::report::{Health, Report};
 use crate::settings::Settings;
 use forgetting::Kernels;

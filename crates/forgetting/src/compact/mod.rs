@@ -152,7 +152,7 @@ where
     fn refuse(&self, why: Refused, phi: &[T; N], y: T) -> Error {
         let largest = (y - self.predict(phi)).abs();
         match why {
-            Refused::Room => out_of_range("covariance", self.bound),
+            Refused::Room => out_of_range("covariance (its trace)", self.bound),
             Refused::Sample if largest <= T::CEILING => {
                 out_of_range("phi (its squared length)", few_products::<T, T, N>(phi, phi).0)
             }

@@ -78,7 +78,7 @@ where
     type Errors = [T; 1];
     type Parameters = Part<[T; N]>;
     type Scratch = Part<<Size<N> as Packed<T>>::Scratch>;
-    type List = [T; L];
+    type List = Part<[T; L]>;
 
     #[inline(always)]
     fn parameters(&self) -> usize {
@@ -123,8 +123,8 @@ where
     fn scratch(&self) -> Self::Scratch {
         Part::new(<Size<N> as Packed<T>>::scratch(), scratch(self.parameters))
     }
-    fn list(&self, _: usize) -> [T; L] {
-        [T::ZERO; L]
+    fn list(&self, length: usize) -> Self::List {
+        Part::new([T::ZERO; L], length.min(L))
     }
     fn longest_list(&self) -> usize {
         L

@@ -272,3 +272,15 @@ impl<T: Real> Visitor<T> for Reader<'_> {
         *value = self.array().map_or(0, u64::from_le_bytes);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::MOST_PARAMETERS;
+
+    #[test]
+    fn every_choice_can_be_read() {
+        for about in crate::AXES.iter().flat_map(|axis| axis.entries) {
+            assert!(about.parameters.len() <= MOST_PARAMETERS, "{}", about.name);
+        }
+    }
+}
