@@ -5,8 +5,8 @@
 
 #ifndef KIND
 #define KIND fg_subspace_f32_2
-#define RULE "subspace"
 #define N 2
+#define FORGETTING_FACTOR 0.99609375
 #endif
 #ifndef SAMPLES
 #define SAMPLES 100000
@@ -57,7 +57,7 @@ static void hold_above(float theta[N], const float p[N * N], int i, float bound)
 }
 
 int main(void) {
-    fg_settings settings = {.parameters = N, .forgetting_factor = 0.99609375, .initial_covariance = 100};
+    fg_settings settings = {.parameters = N, .forgetting_factor = FORGETTING_FACTOR, .initial_covariance = 100};
     fg_estimator *cell;
     float phi[N], theta[N], p[N * N];
     uint32_t most = 0, instructions = 0;

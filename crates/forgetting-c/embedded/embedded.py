@@ -26,7 +26,9 @@ HERE = Path(__file__).parent
 OUT = Path(os.environ["OUT"])
 SAMPLES = 100_000
 FORGETTING_FACTOR = 0.99609375
-RULES = ["exponential", "subspace"]
+RULES = ["exponential", "subspace", "random_walk"]
+# rules that use no forgetting factor
+WITHOUT_FACTOR = ["random_walk"]
 SIZES = [2, 4, 6]
 # what the loop that the counter is held against executes: see `machine.c`
 LOOP = 300_000
@@ -97,6 +99,11 @@ MACHINES = [
 ]
 
 
+def factor(rule: str) -> float | None:
+    """λ, if the rule uses it."""
+    return None if rule in WITHOUT_FACTOR else FORGETTING_FACTOR
+
+
 def run(*command: str, timeout: float = 300) -> str:
     """The output of a program that must succeed."""
     done = subprocess.run(command, capture_output=True, text=True, timeout=timeout, check=False)
@@ -112,6 +119,7 @@ def compiled(machine: Machine, rule: str, n: int) -> tuple[Path, int]:
     options = [*machine.flags, "-std=c11", "-Os", "-ffp-contract=off", "-ffunction-sections"]
     options += ["-ffreestanding", "-Wall", "-Wextra", "-Werror", f"-I{HERE.parent / 'include'}"]
     options += [f"-DKIND=fg_{rule}_f32_{n}", f"-DN={n}", f"-DSAMPLES={SAMPLES}"]
+    options += [f"-DFORGETTING_FACTOR={factor(rule) or 0}"]
     objects = []
     for source in ("battery.c", "machine.c"):
         objects.append(str(folder / f"{name}_{source}.o"))
@@ -190,7 +198,7 @@ def expected(rule: str, n: int) -> tuple[str, str]:
     rls = fg.RLS(
         n,
         rule=rule,
-        forgetting_factor=FORGETTING_FACTOR,
+        forgetting_factor=factor(rule),
         initial_covariance=100.0,
         dtype="float32",
     )

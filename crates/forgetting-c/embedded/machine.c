@@ -89,21 +89,28 @@ uint32_t ticks_of_loop(void) {
 }
 
 #define PAINT 0xC5C5C5C5u
-/* words left alone below the stack pointer: those of the function that paints */
-#define MARGIN 16
 
 static uint32_t *painted_from;
 
+static uint32_t *stack_pointer(void) {
+    uint32_t *pointer;
+#ifdef __riscv
+    __asm__ volatile("mv %0, sp" : "=r"(pointer));
+#else
+    __asm__ volatile("mov %0, sp" : "=r"(pointer));
+#endif
+    return pointer;
+}
+
 __attribute__((noinline)) void paint_stack(void) {
-    uint32_t here;
-    painted_from = &here - MARGIN;
+    painted_from = stack_pointer();
     for (uint32_t *word = stack_bottom; word < painted_from; ++word) *word = PAINT;
 }
 
 __attribute__((noinline)) uint32_t painted_stack(void) {
     uint32_t *word = stack_bottom;
     while (word < painted_from && *word == PAINT) ++word;
-    return (uint32_t)(painted_from + MARGIN - word) * sizeof *word;
+    return (uint32_t)(painted_from - word) * sizeof *word;
 }
 
 void *memcpy(void *to, const void *from, size_t count) {

@@ -96,7 +96,7 @@ typedef struct fg_settings {
     fg_choice rate;              /* how much to forget, in the place of forgetting_factor */
     fg_choice weighting;         /* how far to trust a sample; equally */
     fg_choice gate;              /* whether a sample is used; always */
-    double forgetting_factor;    /* lambda in (0, 1]; 0 for 0.99, or for 1 where the rule uses none */
+    double forgetting_factor;    /* lambda in (0, 1]; 0 for 0.99, or for none where the rule uses none */
     double initial_covariance;   /* c > 0 of P0 = c I, in units of 1/phi^2; 0 where it follows the data */
     const double *initial_theta; /* theta0, n finite numbers; null for 0 */
     int32_t monitor;             /* other than 0: watch windup, excitation and noise, see fg_health */
@@ -157,6 +157,7 @@ FG_COMPACT_KINDS(none);        /* forgets nothing */
 FG_COMPACT_KINDS(exponential); /* everything at the same rate; may wind up */
 FG_COMPACT_KINDS(subspace);    /* in the direction of phi only; cannot wind up; parameter threshold */
 FG_COMPACT_KINDS(directional); /* the same, with another dead zone; parameter threshold */
+FG_COMPACT_KINDS(random_walk); /* every parameter walks alike; parameters process_noise, bound */
 
 extern const fg_kind fg_general_f32_8, fg_general_f64_8, fg_general_f64_32;
 

@@ -117,7 +117,8 @@ pub unsafe extern "C" fn fg_load(
                 return Err(Code::Null.into());
             }
             kind.check_memory(memory, size)?;
-            (kind.load)(memory.cast(), kind, core::slice::from_raw_parts(bytes, length))?;
+            let bytes = core::slice::from_raw_parts(bytes, length);
+            kind.saving.load(memory.cast(), kind, bytes)?;
             give(memory, estimator);
             Ok(())
         };
@@ -155,7 +156,7 @@ pub unsafe extern "C" fn fg_save(
             return Code::Null as i32;
         }
         let mut needed = 0;
-        if let Err(why) = (kind.save)(estimator, &mut |piece| needed += piece.len()) {
+        if let Err(why) = kind.saving.save(estimator, &mut |piece| needed += piece.len()) {
             return why.code;
         }
         length.write(needed);
@@ -166,7 +167,7 @@ pub unsafe extern "C" fn fg_save(
             return Code::Memory as i32;
         }
         let mut place = bytes;
-        let saved = (kind.save)(estimator, &mut |piece| {
+        let saved = kind.saving.save(estimator, &mut |piece| {
             place.copy_from_nonoverlapping(piece.as_ptr(), piece.len());
             place = place.add(piece.len());
         });

@@ -1,7 +1,11 @@
 //! Every kind, and how one is found by name.
 
-use crate::kind::Kind;
-use crate::model::compact::{Directional, Exponential, Named, NoForgetting, Of, Subspace};
+#[cfg(feature = "general")]
+use crate::kind::Whole;
+use crate::kind::{Kind, Saving, View};
+use crate::model::compact::{
+    Directional, Exponential, Named, NoForgetting, Of, RandomWalk, Subspace,
+};
 #[cfg(feature = "general")]
 use crate::model::general::General;
 use core::ffi::{c_char, CStr};
@@ -11,12 +15,12 @@ macro_rules! kinds {
         const COMPACT: &[(&str, &Kind)] = &[$($(
             {
                 #[export_name = concat!("fg_", $rule, "_f32_", $n)]
-                static KIND: Kind = Kind::of::<Of<$Rule, f32, $n>>();
+                static KIND: Kind = Kind::of::<Of<$Rule, f32, $n>>(Saving::F32(View::of::<Of<$Rule, f32, $n>>()));
                 ($Rule::NAME, &KIND)
             },
             {
                 #[export_name = concat!("fg_", $rule, "_f64_", $n)]
-                static KIND: Kind = Kind::of::<Of<$Rule, f64, $n>>();
+                static KIND: Kind = Kind::of::<Of<$Rule, f64, $n>>(Saving::F64(View::of::<Of<$Rule, f64, $n>>()));
                 ($Rule::NAME, &KIND)
             },
         )*)*];
@@ -29,6 +33,7 @@ kinds! {
     Exponential "exponential" [1 2 3 4 5 6 7 8];
     Subspace "subspace" [1 2 3 4 5 6 7 8];
     Directional "directional" [1 2 3 4 5 6 7 8];
+    RandomWalk "random_walk" [1 2 3 4 5 6 7 8];
 }
 
 macro_rules! general {
@@ -37,7 +42,7 @@ macro_rules! general {
             #[doc = concat!("Any rule, up to ", $n, " parameters.")]
             #[cfg(feature = "general")]
             #[no_mangle]
-            pub static $name: Kind = Kind::of::<General<$T, $n>>();
+            pub static $name: Kind = Kind::of::<General<$T, $n>>(Saving::Whole(Whole::of::<General<$T, $n>>()));
         )*
 
         #[cfg(feature = "general")]

@@ -128,11 +128,18 @@ impl Settings {
     }
 
     /// λ; that of a rule that uses none is 1.
-    pub fn forgetting_factor(&self, is_used: bool) -> f64 {
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] where one is given to a rule that uses none.
+    pub fn forgetting_factor(&self, is_used: bool) -> Result<f64, Error> {
         match self.forgetting_factor {
-            0.0 if is_used => FORGETTING_FACTOR,
-            0.0 => 1.0,
-            given => given,
+            0.0 if is_used => Ok(FORGETTING_FACTOR),
+            0.0 => Ok(1.0),
+            given if is_used => Ok(given),
+            _ => {
+                let reason = "forgetting_factor is given, but the rule uses none";
+                Err(Error::Unsupported { reason })
+            }
         }
     }
 

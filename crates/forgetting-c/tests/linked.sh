@@ -17,7 +17,7 @@ int main(void) {
            fg_load(memory, sizeof memory, &KIND, bytes, length, &estimator, 0) || fg_reset(estimator);
 }
 C
-for rule in none exponential subspace directional; do
+for rule in none exponential subspace directional random_walk; do
     kind=fg_${rule}_f32_4
     $CC -std=c11 -DKIND="$kind" -I"$STAGE/include" -ffunction-sections "$WORK/one.c" -Wl,--gc-sections \
         "$STAGE/lib/libforgetting.a" -lm -o "$WORK/one"

@@ -16,7 +16,7 @@ import forgetting as fg
 
 LIBRARY = load()
 N = 3
-COMPACT = ["none", "exponential", "subspace", "directional"]
+COMPACT = ["none", "exponential", "subspace", "directional", "random_walk"]
 DTYPES = ["float32", "float64"]
 # what a choice needs that has no default
 NEEDED = {"component": {"blocks": [1, 2], "factors": [0.9, 0.99]}}
@@ -70,6 +70,14 @@ def test_compact(rule: str, n: int, dtype: str) -> None:
     """Every rule and every size that is compiled as a compact estimator."""
     rls = fg.RLS(n, rule=rule, initial_covariance=50.0, dtype=dtype)
     check_both_ways(rls, rule, dtype, n)
+
+
+@pytest.mark.parametrize("dtype", DTYPES)
+def test_walk_with_a_bound(dtype: str) -> None:
+    """The rule that Python takes when nothing is said, compact."""
+    rule = fg.rule("random_walk", process_noise=3e-3, bound=1e3)
+    rls = fg.RLS(4, rule=rule, initial_covariance=50.0, dtype=dtype)
+    check_both_ways(rls, "random_walk", dtype, 4)
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,7 @@
 //! after every sample, and the same bytes when saved.
 
 use forgetting::choice::Defaults;
+use forgetting::compact::Walk;
 use forgetting::gates::{AnyGate, Open};
 use forgetting::rates::AnyRate;
 use forgetting::rules::{Directional, Exponential, NoForgetting, Rule, Subspace};
@@ -36,7 +37,8 @@ impl Numbers {
 
 fn estimator<M: Memory>(rule: &str, memory: M) -> Named<M> {
     let prior = Prior::scalar(memory, M::Real::from_f64(VARIANCE)).unwrap();
-    let lambda = Constant::new(M::Real::from_f64(LAMBDA)).unwrap();
+    let lambda = Constant::new(M::Real::from_f64(if rule == "random_walk" { 1.0 } else { LAMBDA }));
+    let lambda = lambda.unwrap();
     let rule = Rule::named(rule, &Defaults, memory).unwrap();
     let weighting = AnyWeighting::Equal(Equal::new());
     Estimator::new(rule, AnyRate::Constant(lambda), weighting, prior)
@@ -56,7 +58,8 @@ where
     T: Kernels,
     Size<N>: Packed<T>,
 {
-    let (variance, lambda) = (T::from_f64(VARIANCE), T::from_f64(LAMBDA));
+    let lambda = if rule == "random_walk" { 1.0 } else { LAMBDA };
+    let (variance, lambda) = (T::from_f64(VARIANCE), T::from_f64(lambda));
     let mut compact = Compact::<F, T, N>::new(&Defaults, lambda, variance, &[T::ZERO; N]).unwrap();
     let mut whole: AnyEstimator<T> = estimator(rule, Dynamic::new(N, 1, 1).unwrap());
     let mut part = estimator(rule, UpTo::<T, 32, 8>::new(N).unwrap());
@@ -107,6 +110,7 @@ fn the_bits_are_those_of_an_estimator_on_the_heap() {
     every_size!(Exponential, "exponential");
     every_size!(Subspace, "subspace");
     every_size!(Directional, "directional");
+    every_size!(Walk, "random_walk");
 }
 
 type Two<T> = Compact<Exponential<Fixed<T, 2>>, T, 2>;

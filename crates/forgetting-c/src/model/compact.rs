@@ -5,11 +5,12 @@ use crate::code::{Code, Why};
 use crate::number::Number;
 use crate::report::{Health, Report};
 use crate::settings::Settings;
-use forgetting::choice::About;
+use forgetting::choice::{About, Values};
+use forgetting::compact::Saved;
 use forgetting::{Compact, Error, Fixed, Forgetting, Packed, Size};
 
 /// A rule with its name.
-pub trait Named {
+pub trait Named: 'static {
     /// The rule.
     type Rule<T: Float, const N: usize>: Forgetting<Fixed<T, N>>
     where
@@ -21,13 +22,13 @@ pub trait Named {
 }
 
 macro_rules! named {
-    ($($Name:ident: $module:ident,)*) => {$(
+    ($($Name:ident: $module:ident, $($Type:ident)::+;)*) => {$(
         #[doc = concat!("The rule `", stringify!($module), "`.")]
         pub struct $Name;
 
         impl Named for $Name {
             type Rule<T: Float, const N: usize>
-                = forgetting::rules::$Name<Fixed<T, N>>
+                = forgetting::$($Type)::+<Fixed<T, N>>
             where
                 Size<N>: Packed<T>;
             const NAME: &'static str = stringify!($module);
@@ -36,10 +37,11 @@ macro_rules! named {
     )*};
 }
 named! {
-    NoForgetting: none,
-    Exponential: exponential,
-    Subspace: subspace,
-    Directional: directional,
+    NoForgetting: none, rules::NoForgetting;
+    Exponential: exponential, rules::Exponential;
+    Subspace: subspace, rules::Subspace;
+    Directional: directional, rules::Directional;
+    RandomWalk: random_walk, compact::Walk;
 }
 
 /// A compact estimator of the rule `R`.
@@ -62,7 +64,7 @@ where
             return Err(Code::Unknown.into());
         }
         given.check(Some(const { &R::ABOUT }))?;
-        let lambda = settings.forgetting_factor(R::ABOUT.forgetting_factor);
+        let lambda = settings.forgetting_factor(R::ABOUT.forgetting_factor)?;
         let variance = settings.initial_covariance;
         if variance == 0.0 {
             return Err(Error::Missing { parameter: "initial_covariance" }.into());
@@ -74,15 +76,6 @@ where
         let made =
             Compact::new(&given.values(), T::from_f64(lambda), T::from_f64(variance), &theta)?;
         Ok(Self(made))
-    }
-
-    fn load(bytes: &[u8]) -> Result<Self, Why> {
-        Ok(Self(Compact::from_bytes(R::NAME, bytes)?))
-    }
-
-    fn save(&mut self, put: &mut dyn FnMut(&[u8])) -> Result<(), Why> {
-        self.0.save(R::NAME, put)?;
-        Ok(())
     }
 
     fn parameters(&self) -> usize {
@@ -129,5 +122,20 @@ where
         if let Some(dense) = rows.first_chunk_mut::<N>() {
             self.0.covariance(dense);
         }
+    }
+}
+
+impl<R: Named, T: Float, const N: usize> super::Compact for Of<R, T, N>
+where
+    Size<N>: Packed<T>,
+{
+    const RULE: &'static str = R::NAME;
+
+    fn of_values(values: &dyn Values, lambda: T) -> Result<Self, Error> {
+        Compact::new(values, lambda, T::ONE, &[T::ZERO; N]).map(Self)
+    }
+
+    fn saved(&mut self) -> &mut dyn Saved<T> {
+        &mut self.0
     }
 }

@@ -1,11 +1,11 @@
 //! Estimators of any rule, rate, weighting and gate, by name.
 
-use super::{Float, Model};
+use super::{Float, Model, Saves};
 use crate::code::Why;
 use crate::number::Number;
 use crate::report::{Health, Report};
 use crate::settings::{Choice, Settings};
-use forgetting::choice::{About, Defaults, Value, Values};
+use forgetting::choice::{About, Defaults, Kind, Value, Values};
 use forgetting::defaults::{PROCESS_NOISE, RULE, RULE_OF_DATA};
 use forgetting::gates::AnyGate;
 use forgetting::rates::AnyRate;
@@ -75,10 +75,17 @@ impl Settings {
     }
 
     fn rate<M: Memory>(&self, rule: &str, memory: M) -> Result<AnyRate<M>, Error> {
-        let factors = Rule::<M>::entry(rule).is_some_and(|about| about.forgetting_factor);
-        let lambda = One("forgetting_factor", self.forgetting_factor(factors));
+        let about = Rule::<M>::entry(rule);
+        let uses = about.is_some_and(|about| about.forgetting_factor);
+        // a rule within it may use a factor where it does not
+        let holds =
+            about.is_some_and(|about| about.parameters.iter().any(|p| p.kind == Kind::Rule));
+        let lambda = self.forgetting_factor(uses || (holds && self.forgetting_factor != 0.0))?;
         match self.rate.name() {
-            None => AnyRate::named("constant", &lambda, memory),
+            None => AnyRate::named("constant", &One("forgetting_factor", lambda), memory),
+            Some(_) if !uses && !holds => {
+                Err(Error::Unsupported { reason: "a rate is given, but the rule uses none" })
+            }
             Some(_) => chosen(&self.rate, "constant", AnyRate::<M>::entry, |name, values| {
                 AnyRate::named(name, values, memory)
             }),
@@ -129,15 +136,6 @@ where
         Ok(Self(estimator))
     }
 
-    fn load(bytes: &[u8]) -> Result<Self, Why> {
-        Ok(Self(Named::from_bytes(bytes)?))
-    }
-
-    fn save(&mut self, put: &mut dyn FnMut(&[u8])) -> Result<(), Why> {
-        self.0.save(put)?;
-        Ok(())
-    }
-
     fn parameters(&self) -> usize {
         self.0.prior().memory().parameters()
     }
@@ -181,5 +179,19 @@ where
 
     fn covariance(&mut self, covariance: &mut [T]) {
         self.0.express(self.0.factor()).reconstruct(covariance);
+    }
+}
+
+impl<T: Float, const N: usize> Saves for General<T, N>
+where
+    Size<N>: Packed<T>,
+{
+    fn load(bytes: &[u8]) -> Result<Self, Why> {
+        Ok(Self(Named::from_bytes(bytes)?))
+    }
+
+    fn save(&mut self, put: &mut dyn FnMut(&[u8])) -> Result<(), Why> {
+        self.0.save(put)?;
+        Ok(())
     }
 }

@@ -8,10 +8,12 @@ use crate::code::Why;
 use crate::number::Number;
 use crate::report::{Health, Report};
 use crate::settings::Settings;
-use forgetting::Kernels;
+use forgetting::choice::Values;
+use forgetting::compact::Saved;
+use forgetting::{Error, Kernels};
 
 /// An estimator of one row and one target.
-pub trait Model: Sized {
+pub trait Model: Sized + 'static {
     /// The type of its numbers.
     type Real: Kernels;
     /// The same, as C names it.
@@ -24,16 +26,6 @@ pub trait Model: Sized {
     /// # Errors
     /// What is refused.
     fn make(settings: &Settings) -> Result<Self, Why>;
-    /// The estimator that was saved as `bytes`.
-    ///
-    /// # Errors
-    /// What is wrong with them.
-    fn load(bytes: &[u8]) -> Result<Self, Why>;
-    /// Gives its bytes to `put`, piece by piece.
-    ///
-    /// # Errors
-    /// That it cannot be saved.
-    fn save(&mut self, put: &mut dyn FnMut(&[u8])) -> Result<(), Why>;
     /// n
     fn parameters(&self) -> usize;
     /// Back to the prior.
@@ -53,6 +45,34 @@ pub trait Model: Sized {
     fn theta(&self) -> &[Self::Real];
     /// P, written to n x n numbers.
     fn covariance(&mut self, covariance: &mut [Self::Real]);
+}
+
+/// One that saves and loads itself.
+pub trait Saves: Model {
+    /// The estimator that was saved as `bytes`.
+    ///
+    /// # Errors
+    /// What is wrong with them.
+    fn load(bytes: &[u8]) -> Result<Self, Why>;
+    /// Gives its bytes to `put`, piece by piece.
+    ///
+    /// # Errors
+    /// That it cannot be saved.
+    fn save(&mut self, put: &mut dyn FnMut(&[u8])) -> Result<(), Why>;
+}
+
+/// One that only says what is to be saved.
+pub trait Compact: Model {
+    /// The name of its rule in the registry.
+    const RULE: &'static str;
+
+    /// With these parameters of the rule and this λ; the rest is read later.
+    ///
+    /// # Errors
+    /// What is refused.
+    fn of_values(values: &dyn Values, lambda: Self::Real) -> Result<Self, Error>;
+    /// What is to be saved.
+    fn saved(&mut self) -> &mut dyn Saved<Self::Real>;
 }
 
 /// The type of number that C calls so.

@@ -64,7 +64,8 @@ impl<T: Real, const N: usize> Compact<'_, T, N> {
     ///
     /// # Errors
     /// [`Refused`]; nothing has changed.
-    #[inline]
+    // always, so that what calls it with one form compiles that one only
+    #[inline(always)]
     pub fn take(&mut self, form: Form<T>, phi: &[T; N], y: T) -> Result<Outcome<T>, Refused> {
         let (product, squares) = few_products::<T, T, N>(phi, self.theta);
         let error = y - product;

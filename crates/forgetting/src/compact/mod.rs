@@ -7,6 +7,10 @@
 //! the parameters of the rule. There is no monitor, no gate and no weighting.
 
 mod saved;
+mod walk;
+
+pub use saved::{load, save, Saved};
+pub use walk::Walk;
 
 use crate::choice::Values;
 use crate::error::Error;
@@ -135,7 +139,7 @@ where
     ///
     /// # Errors
     /// [`Error`] names what was wrong; the estimator is as it was, bit for bit.
-    #[inline]
+    #[inline(always)]
     pub fn update(&mut self, phi: &[T; N], y: T) -> Result<Outcome<T>, Error> {
         let form = self.form()?;
         let mut outcome =

@@ -30,11 +30,11 @@ impl<'a> Output<'a> {
         choice(&mut |bytes| self.bytes(bytes), name, each)
     }
 
-    /// Mark, version, number type, sizes, the form of P₀ and what else is kept.
-    pub fn sizes<M: Memory>(&mut self, memory: M, form: u8, kept: u8) {
+    /// Mark, version, number type, sizes n, p and m, the form of P₀ and what else is kept.
+    pub fn sizes<T: Real>(&mut self, sizes: [usize; 3], form: u8, kept: u8) {
         self.bytes(MARK);
-        self.bytes(&[VERSION, M::Real::BYTES as u8]);
-        for size in [memory.parameters(), memory.rows(), memory.targets()] {
+        self.bytes(&[VERSION, T::BYTES as u8]);
+        for size in sizes {
             self.bytes(&(size as u32).to_le_bytes());
         }
         self.bytes(&[form, kept]);
@@ -53,7 +53,9 @@ impl<'a> Output<'a> {
 pub fn header<M: Memory>(output: &mut Output<'_>, estimator: &Named<M>) -> Result<(), Error> {
     let (monitored, noise) = (estimator.health().is_some(), estimator.estimates_noise());
     let kept = u8::from(monitored) * MONITORED + u8::from(noise) * NOISE_ESTIMATED;
-    output.sizes(estimator.prior().memory(), estimator.prior().form(), kept);
+    let memory = estimator.prior().memory();
+    let sizes = [memory.parameters(), memory.rows(), memory.targets()];
+    output.sizes::<M::Real>(sizes, estimator.prior().form(), kept);
     let (rule, rate) = (estimator.rule(), estimator.rate());
     output.choice(rule.name(), &|each| rule.describe(&mut |name, value| each(name, value)))?;
     output.choice(rate.called(), &|each| rate.describe(&mut |name, value| each(name, value)))?;

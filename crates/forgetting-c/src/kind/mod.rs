@@ -1,5 +1,9 @@
 //! A type of estimator as a table of functions, so that C needs to know no type.
 
+mod saving;
+
+pub use saving::{Saving, View, Whole};
+
 use crate::code::{Code, Why};
 use crate::model::Model;
 use crate::number::Number;
@@ -28,7 +32,7 @@ struct Held<E> {
     estimator: E,
 }
 
-type Outcome = Result<(), Why>;
+pub(crate) type Outcome = Result<(), Why>;
 
 /// The functions of a type of estimator. Numbers are those of [`Kind::number`].
 #[derive(Debug)]
@@ -42,8 +46,7 @@ pub struct Kind {
     /// the least and the most parameters
     pub parameters: (usize, usize),
     pub(crate) init: unsafe fn(*mut Head, &'static Kind, &Settings) -> Outcome,
-    pub(crate) load: unsafe fn(*mut Head, &'static Kind, &[u8]) -> Outcome,
-    pub(crate) save: unsafe fn(*mut Head, &mut dyn FnMut(&[u8])) -> Outcome,
+    pub(crate) saving: Saving,
     pub(crate) reset: unsafe fn(*mut Head),
     pub(crate) samples: unsafe fn(*mut Head) -> u64,
     pub(crate) health: unsafe fn(*mut Head) -> Option<Health>,
@@ -58,16 +61,15 @@ pub struct Kind {
 }
 
 impl Kind {
-    /// The kind of `E`.
-    pub(crate) const fn of<E: Model>() -> Self {
+    /// The kind of `E`, saved so.
+    pub(crate) const fn of<E: Model>(saving: Saving) -> Self {
         Self {
             number: E::NUMBER,
             size: size_of::<Held<E>>(),
             alignment: align_of::<Held<E>>(),
             parameters: E::PARAMETERS,
             init: init::<E>,
-            load: load::<E>,
-            save: save::<E>,
+            saving,
             reset: reset::<E>,
             samples: samples::<E>,
             health: health::<E>,
@@ -132,7 +134,7 @@ impl Head {
 ///
 /// # Safety
 /// There is memory for it.
-unsafe fn put<E: Model>(head: *mut Head, kind: &'static Kind, estimator: E) {
+pub(crate) unsafe fn put<E: Model>(head: *mut Head, kind: &'static Kind, estimator: E) {
     let head_of = Head { kind, mark: MARK, parameters: estimator.parameters() as u32 };
     // SAFETY: as above.
     unsafe { head.cast::<Held<E>>().write(Held { head: head_of, estimator }) }
@@ -145,25 +147,13 @@ unsafe fn init<E: Model>(head: *mut Head, kind: &'static Kind, settings: &Settin
     Ok(())
 }
 
-unsafe fn load<E: Model>(head: *mut Head, kind: &'static Kind, bytes: &[u8]) -> Outcome {
-    let estimator = E::load(bytes)?;
-    // SAFETY: the caller has checked the memory.
-    unsafe { put(head, kind, estimator) };
-    Ok(())
-}
-
 /// The estimator at `head`.
 ///
 /// # Safety
 /// There is one, of this type, and nobody else uses it now.
-unsafe fn at<'a, E: Model>(head: *mut Head) -> &'a mut E {
+pub(crate) unsafe fn at<'a, E: Model>(head: *mut Head) -> &'a mut E {
     // SAFETY: as above.
     unsafe { &mut (*head.cast::<Held<E>>()).estimator }
-}
-
-unsafe fn save<E: Model>(head: *mut Head, put: &mut dyn FnMut(&[u8])) -> Outcome {
-    // SAFETY: its kind says so.
-    unsafe { at::<E>(head) }.save(put)
 }
 
 unsafe fn reset<E: Model>(head: *mut Head) {
