@@ -28,14 +28,15 @@ int main(void) {
     for (int k = 0; k <= 4000; ++k) {
         float current = 2 + noise(), resistance = k < 2000 ? 0.05f : 0.075f;
         float voltage = 3.7f - resistance * current + 0.001f * noise();
-        int code = fg_update_f32(cell, (float[]){1, -current}, 2, voltage, NULL);
+        float phi[2] = {1, -current};
+        int code = fg_update(cell, phi, 2, voltage, NULL);
         if (code != FG_OK) {
             fprintf(stderr, "%s\n", fg_strerror(code));
             return 1;
         }
         if (k % 1000 == 0) {
             float theta[2];
-            fg_theta_f32(cell, theta, 2);
+            fg_theta(cell, theta, 2);
             printf("after %4d samples: %.3f V, %.1f mOhm\n", k, theta[0], 1000 * theta[1]);
         }
     }

@@ -197,6 +197,17 @@ int32_t fg_theta_f64(fg_estimator *estimator, double *theta, size_t n);
 int32_t fg_covariance_f32(fg_estimator *estimator, float *covariance, size_t n);
 int32_t fg_covariance_f64(fg_estimator *estimator, double *covariance, size_t n);
 
+/* fg_update, fg_predict, fg_theta and fg_covariance: whichever of the two the type of the array says. */
+#if !defined(__cplusplus) && defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L
+#define FG_OF_TYPE(array, function)                                                   \
+    _Generic((array), float *: function##_f32, const float *: function##_f32,         \
+        double *: function##_f64, const double *: function##_f64)
+#define fg_update(estimator, phi, n, y, report) FG_OF_TYPE(phi, fg_update)(estimator, phi, n, y, report)
+#define fg_predict(estimator, phi, n, prediction) FG_OF_TYPE(phi, fg_predict)(estimator, phi, n, prediction)
+#define fg_theta(estimator, theta, n) FG_OF_TYPE(theta, fg_theta)(estimator, theta, n)
+#define fg_covariance(estimator, covariance, n) FG_OF_TYPE(covariance, fg_covariance)(estimator, covariance, n)
+#endif
+
 /* What the monitor has found. Errors: NULL, ALIGNMENT, NOT_AN_ESTIMATOR; UNSUPPORTED without a monitor. */
 int32_t fg_health(fg_estimator *estimator, fg_health_report *health);
 

@@ -5,6 +5,7 @@
 //! is a table of functions for one type of estimator. A program that names one links that one and no
 //! other.
 #![no_std]
+#![cfg_attr(not(feature = "general"), allow(dead_code, reason = "for general kinds"))]
 
 mod api;
 mod code;

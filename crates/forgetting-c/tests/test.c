@@ -289,6 +289,28 @@ static void choices_go_by_name(void) {
     free(memory);
 }
 
+/* The functions without a number type in their names take that of the array. */
+static void the_type_of_the_array_chooses(void) {
+    unsigned char memory[2][256] __attribute__((aligned(16)));
+    fg_settings settings = {.parameters = 2, .initial_covariance = 10};
+    fg_estimator *single, *both;
+    const float phi[] = {1, 2};
+    const double wide[] = {1, 2};
+    float theta[2], p[4], y;
+    double theta_wide[2], p_wide[4], y_wide;
+    CHECK(fg_init(memory[0], 256, &fg_random_walk_f32_2, &settings, &single, NULL) == FG_OK);
+    CHECK(fg_init(memory[1], 256, &fg_random_walk_f64_2, &settings, &both, NULL) == FG_OK);
+    CHECK(fg_update(single, phi, 2, 3, NULL) == FG_OK && fg_update(both, wide, 2, 3, NULL) == FG_OK);
+    CHECK(fg_update(single, wide, 2, 3, NULL) == FG_ERROR_NUMBER_TYPE);
+    CHECK(fg_theta(single, theta, 2) == FG_OK && fg_theta(both, theta_wide, 2) == FG_OK);
+    CHECK(fg_covariance(single, p, 2) == FG_OK && fg_covariance(both, p_wide, 2) == FG_OK);
+    CHECK(fg_predict(single, phi, 2, &y) == FG_OK && fg_predict(both, wide, 2, &y_wide) == FG_OK);
+    CHECK(fabs(theta[0] - theta_wide[0]) < 1e-5 && fabs(p[1] - p_wide[1]) < 1e-5);
+    CHECK(fabs(y - y_wide) < 1e-5 && fabs(y - 3) < 0.1);
+    settings.forgetting_factor = 0.9;
+    CHECK(fg_init(memory[0], 256, &fg_random_walk_f32_2, &settings, NULL, NULL) == FG_ERROR_UNSUPPORTED);
+}
+
 int main(void) {
     fg_choice none = {0}, exponential = {.name = "exponential"};
     estimates_are_those_of_the_normal_equations(&fg_exponential_f64_3, none);
@@ -301,5 +323,6 @@ int main(void) {
     kinds_are_found();
     every_code_has_words();
     choices_go_by_name();
+    the_type_of_the_array_chooses();
     return verdict("C");
 }
