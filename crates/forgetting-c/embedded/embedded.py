@@ -90,7 +90,7 @@ MACHINES = [
         "RISC-V rv32imc (virt)",
         "riscv32imc-unknown-none-elf",
         RISCV,
-        ("-march=rv32imc_zicsr", "-mabi=ilp32", "-mcmodel=medany"),
+        ("-march=rv32imc", "-misa-spec=2.2", "-mabi=ilp32", "-mcmodel=medany"),
         ("qemu-system-riscv32", "-M", "virt", "-bios", "none"),
         0x80000000,
         0x80400000,
