@@ -1,5 +1,5 @@
-"""An estimator trained in Python goes on in C and back, bit for bit, for every rule, rate, weighting
-and gate that needs no function of the user's. Python is held to plain arithmetic
+"""An estimator trained in Python goes on in C and back, bit for bit, for every rule, rate,
+weighting and gate that needs no function of the user's. Python is held to plain arithmetic
 (`FORGETTING_CPU=baseline`): with fused multiply-add its numbers are rounded otherwise.
 """
 
