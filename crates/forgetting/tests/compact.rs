@@ -9,7 +9,7 @@ use forgetting::rules::{Directional, Exponential, NoForgetting, Rule, Subspace};
 use forgetting::weightings::AnyWeighting;
 use forgetting::{
     AnyEstimator, Compact, Constant, Dynamic, Equal, Error, Estimator, Fixed, Forgetting, Kernels,
-    Memory, Named, Packed, Prior, Size, UpTo,
+    Memory, Named, Packed, Prior, Real, Size, UpTo,
 };
 
 const VARIANCE: f64 = 50.0;
