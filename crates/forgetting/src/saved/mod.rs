@@ -32,6 +32,7 @@ use {alloc::vec::Vec, forgetting_kernels::Kernels};
 
 #[cfg(feature = "alloc")]
 mod bank;
+#[cfg(feature = "alloc")]
 mod model;
 mod read;
 mod write;
