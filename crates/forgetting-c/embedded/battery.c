@@ -73,13 +73,15 @@ int main(void) {
         fg_theta_f32(cell, theta, N);
         add_to_hash(theta);
     }
+#ifndef WITHOUT_SAVING
     unsigned char bytes[512];
     size_t length;
     if (fg_save(cell, bytes, sizeof bytes, &length) != FG_OK) return 1;
+    print_bytes("state", bytes, (uint32_t)length);
+#endif
     fg_covariance_f32(cell, p, N);
     hold_above(theta, p, 1, 0.0f);
     print_number("hash", hash);
-    print_bytes("state", bytes, (uint32_t)length);
     print_number("microohms", (uint32_t)(1e6f * theta[1]));
     print_number("size", (uint32_t)fg_size(&KIND));
     print_number("stack", most);
