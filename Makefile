@@ -45,6 +45,7 @@ lint: build
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --quiet -- -D warnings
 	cargo clippy --package forgetting --no-default-features --quiet -- -D warnings
+	cargo clippy --package forgetting-c --features general --quiet -- -D warnings
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy

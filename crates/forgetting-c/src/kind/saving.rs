@@ -10,6 +10,9 @@ use forgetting::choice::Values;
 use forgetting::compact::{load, save, Saved};
 use forgetting::{Error, Kernels};
 
+/// Takes bytes, one piece after the other.
+type Put<'a> = dyn FnMut(&[u8]) + 'a;
+
 /// How estimators of a kind are saved.
 #[derive(Debug)]
 pub enum Saving {
@@ -32,7 +35,7 @@ pub struct View<T: Kernels> {
 /// How an estimator saves and loads itself.
 #[derive(Debug)]
 pub struct Whole {
-    save: unsafe fn(*mut Head, &mut dyn FnMut(&[u8])) -> Outcome,
+    save: unsafe fn(*mut Head, &mut Put<'_>) -> Outcome,
     load: unsafe fn(*mut Head, &'static Kind, &[u8]) -> Outcome,
 }
 
@@ -75,7 +78,7 @@ impl Saving {
     ///
     /// # Safety
     /// It is one of this kind.
-    pub(crate) unsafe fn save(&self, head: *mut Head, put: &mut dyn FnMut(&[u8])) -> Outcome {
+    pub(crate) unsafe fn save(&self, head: *mut Head, put: &mut Put<'_>) -> Outcome {
         // SAFETY: as above.
         unsafe {
             match self {
@@ -125,7 +128,7 @@ unsafe fn look_at<E: Compact>(head: *mut Head) -> *mut dyn Saved<E::Real> {
     unsafe { at::<E>(head) }.saved()
 }
 
-unsafe fn save_whole<E: Saves>(head: *mut Head, put: &mut dyn FnMut(&[u8])) -> Outcome {
+unsafe fn save_whole<E: Saves>(head: *mut Head, put: &mut Put<'_>) -> Outcome {
     // SAFETY: its kind says so.
     unsafe { at::<E>(head) }.save(put)
 }

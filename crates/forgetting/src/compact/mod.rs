@@ -189,14 +189,14 @@ where
     pub fn covariance(&mut self, dense: &mut [[T; N]; N]) {
         let diagonal = self.diagonal;
         let kernel = self.kernel();
-        for i in 0..N {
-            for j in i..N {
-                let mut sum = T::ZERO;
-                for k in j..N {
-                    sum += kernel.unit(i, k) * diagonal[k] * kernel.unit(j, k);
-                }
-                dense[i][j] = sum;
-                dense[j][i] = sum;
+        for (i, row) in dense.iter_mut().enumerate() {
+            for (j, element) in row.iter_mut().enumerate() {
+                // in the same order for (i, j) and (j, i)
+                let (low, high) = (i.min(j), i.max(j));
+                let columns = diagonal.iter().enumerate().skip(high);
+                *element = columns.fold(T::ZERO, |sum, (k, &d)| {
+                    sum + kernel.unit(low, k) * d * kernel.unit(high, k)
+                });
             }
         }
     }

@@ -79,7 +79,7 @@ impl<'a> Reader<'a> {
     fn choice_of<I: Values>(
         &mut self,
         inner: impl Fn(&mut Self) -> Result<(&'a str, I), Error>,
-    ) -> Result<(&'a str, Parameters<'a, impl Fn(usize) -> f64 + 'a, I>), Error> {
+    ) -> Result<Chosen<'a, impl Fn(usize) -> f64 + 'a, I>, Error> {
         let name = self.word()?;
         let count = usize::from(self.byte()?);
         if count > MOST_PARAMETERS {
@@ -127,6 +127,9 @@ enum SavedValue<'a, E> {
     /// the one that is a choice in itself
     Inner,
 }
+
+/// A name and its parameters.
+type Chosen<'a, E, I> = (&'a str, Parameters<'a, E, I>);
 
 /// The parameters of a choice, in the bytes that they were saved in.
 pub struct Parameters<'a, E, I> {
