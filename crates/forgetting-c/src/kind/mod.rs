@@ -2,7 +2,9 @@
 
 mod saving;
 
-pub use saving::{Saving, View, Whole};
+#[cfg(feature = "general")]
+pub use saving::Whole;
+pub use saving::{Saving, View};
 
 use crate::code::{Code, Why};
 use crate::model::Model;
