@@ -13,13 +13,13 @@ fn main() -> Result<(), Error> {
         let current = 2.0 + f32::from(k % 11) / 10.0;
         cell.update(&[1.0, -current], 3.7 - 0.05 * current)?;
     }
-    let theta = cell.theta();
+    let theta = *cell.theta();
     println!("{:.3} V, {:.1} mOhm in {} bytes", theta[0], 1e3 * theta[1], size_of::<Cell>());
 
     let mut bytes = Vec::new();
     cell.save("subspace", &mut |piece| bytes.extend_from_slice(piece))?;
     let elsewhere = AnyEstimator::<f32>::from_bytes(&bytes)?;
-    assert_eq!(elsewhere.theta(), theta);
+    assert_eq!(*elsewhere.theta(), theta);
     println!("{} bytes saved, the same estimator on the heap", bytes.len());
     Ok(())
 }
