@@ -13,6 +13,10 @@
 #                states, text files, formulas, clocks, tables of fleets
 #   make soak    a billion samples through every rule of O(n^2), the default and the bank, in hours; goes on
 #                where it was stopped; SOAK_ONLY=bank,subspace for some of them
+#   make c       the C library: build it, install it into a folder of its own and test that. Needs a C and a
+#                C++ compiler; uses CMake, pkg-config and valgrind if there are
+#   make embedded   archives for microcontrollers, and the example in QEMU on each; installs what it needs
+#                with apt-get, or says what is missing
 #   make stubs   write again what is generated from the registries: stubs, README table, rule pages
 
 PYTHON ?= python3
@@ -31,7 +35,7 @@ FUZZ_SECONDS ?= 3600
 SOAK_STEPS ?= 1000000000
 SOAK_FOLDER ?= $(CURDIR)/build/soak
 
-.PHONY: accuracy fuzz soak demo test lint rust python build bench bench-full docs sdist stubs clean
+.PHONY: accuracy c embedded fuzz soak demo test lint rust python build bench bench-full docs sdist stubs clean
 
 demo: $(VENV)/records
 	$(DEVELOP) --profile $(PROFILE) --extras cli
@@ -43,6 +47,7 @@ lint: build
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --quiet -- -D warnings
 	cargo clippy --package forgetting --no-default-features --quiet -- -D warnings
+	cargo clippy --package forgetting-c --features general --quiet -- -D warnings
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy
@@ -68,6 +73,12 @@ $(VENV)/ready: pyproject.toml $(VENV)/records
 	cargo clippy --version >/dev/null && cargo fmt --version >/dev/null
 	$(DEVELOP) --profile $(PROFILE) --extras cli,test
 	touch $@
+
+c: build
+	$(MAKE) --no-print-directory -C crates/forgetting-c test PYTHON=$(CURDIR)/$(BIN)/python
+
+embedded: build
+	PYTHON=$(CURDIR)/$(BIN)/python sh crates/forgetting-c/embedded/run.sh
 
 fuzz: build
 	FUZZ_SECONDS=$(FUZZ_SECONDS) FUZZ_SEED=$$(date +%s) cargo test --package forgetting --profile $(PROFILE) \

@@ -21,7 +21,7 @@ LAYERS: dict[str, tuple[str, ...]] = {
     # types that choose instructions, and the registers of one processor
     "forgetting-cpu": ("level", "fused", "x86"),
     "forgetting": (
-        "error",  # what can be refused
+        "error defaults",  # what can be refused; what an estimator is when nothing is said
         "intervals",  # about predictions, from their errors alone
         "memory",  # where numbers are kept, and how they are saved
         "units",  # what regressors are measured in
@@ -34,6 +34,7 @@ LAYERS: dict[str, tuple[str, ...]] = {
         "estimator",  # one recursion
         "fleet bank",  # many of them: on samples of their own, or on the same
         "saved",  # all of it as bytes
+        "compact",  # one of them in as few numbers as there are
     ),
     "forgetting-runtime": (
         "error",  # what is refused, and how it is said
@@ -48,6 +49,15 @@ LAYERS: dict[str, tuple[str, ...]] = {
         "estimator bounds window",
         "fleet bank",
         "model",  # what makes regressors of signals, with an estimator behind it
+    ),
+    # what only C needs
+    "forgetting-c": (
+        "number code",  # number types; what went wrong
+        "report settings",  # structures of C
+        "model",  # what is asked of an estimator
+        "kind",  # the same as a table of functions
+        "kinds",  # every table
+        "api",  # the functions of C
     ),
     # what only Python needs
     "forgetting-py": (

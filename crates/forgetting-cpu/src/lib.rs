@@ -22,3 +22,8 @@ pub use forgetting_kernels::number::lanes::Lanes;
 #[doc(hidden)]
 pub use forgetting_kernels::number::{copy_some, Real};
 pub use level::{level, Level, VARIABLE};
+
+/// The example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

@@ -27,3 +27,8 @@ pub mod number;
 
 pub use kernel::{Dispatch, Kernel, Kernels};
 pub use number::Real;
+
+/// The example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

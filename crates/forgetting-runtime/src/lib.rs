@@ -57,3 +57,8 @@ pub use number::{Array, Elements, NumberType, Numbers, View};
 pub use settings::{size, threads, ForgettingFactor, Settings};
 pub use update::{Innovation, Update, UpdateOptions};
 pub use window::InformationWindow;
+
+/// The example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

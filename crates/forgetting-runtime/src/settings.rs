@@ -3,17 +3,10 @@
 use crate::choice::{Choice, Value};
 use crate::error::Error;
 use crate::number::{NumberType, View};
+use forgetting::defaults::{FORGETTING_FACTOR, PROCESS_NOISE, RULE, RULE_OF_DATA};
 use forgetting::rules::RULES;
 use forgetting::{Dynamic, DIFFUSE};
 
-/// The rule when none is named and P₀ is given, in units of the user.
-const RULE: &str = "subspace";
-/// Process noise of the rule when neither it nor P₀ is given: parameters that are remembered over some
-/// twenty samples each. On open records a larger one predicts a little better, and a noisy
-/// constant is then followed worse.
-const PROCESS_NOISE: f64 = 3e-3;
-/// λ when none is given, of a rule that uses it.
-const FORGETTING_FACTOR: f64 = 0.99;
 /// The most threads that can be asked for.
 const MOST_THREADS: i64 = 1024;
 
@@ -138,7 +131,7 @@ impl Settings<'_> {
     /// The rule, named or not.
     pub(crate) fn rule(&self) -> Choice {
         let walk = || {
-            Choice::named("random_walk").with("process_noise", PROCESS_NOISE).with("bound", DIFFUSE)
+            Choice::named(RULE_OF_DATA).with("process_noise", PROCESS_NOISE).with("bound", DIFFUSE)
         };
         match (&self.rule, self.initial_covariance, &self.forgetting_factor) {
             (Some(rule), ..) => rule.clone(),

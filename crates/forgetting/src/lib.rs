@@ -22,7 +22,9 @@ extern crate std;
 #[cfg(feature = "alloc")]
 pub mod bank;
 pub mod choice;
+pub mod compact;
 pub mod covariance;
+pub mod defaults;
 mod error;
 mod estimator;
 #[cfg(feature = "alloc")]
@@ -37,27 +39,32 @@ pub mod monitor;
 pub mod rates;
 pub mod rules;
 mod sample;
-#[cfg(feature = "alloc")]
 pub mod saved;
+
+/// The example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;
 
 #[cfg(test)]
 mod testing;
 mod units;
 pub mod weightings;
 
+pub use compact::Compact;
 #[cfg(feature = "alloc")]
 pub use covariance::bounded;
 pub use covariance::{Factor, Prior, DIFFUSE};
 pub use error::Error;
 #[cfg(feature = "alloc")]
 pub use estimator::AnyEstimator;
-pub use estimator::Estimator;
+pub use estimator::{Estimator, Named};
 pub use forgetting_kernels::kernel::outcome::Outcome;
 pub use forgetting_kernels::{Kernels, Real};
 pub use intervals::Intervals;
 #[cfg(feature = "alloc")]
 pub use memory::{Aligned, Dynamic};
-pub use memory::{Buffer, Fixed, Grid, Memory, Packed, Size};
+pub use memory::{Buffer, Fixed, Grid, Memory, Packed, Size, UpTo};
 pub use monitor::Health;
 #[cfg(feature = "alloc")]
 pub use monitor::InformationWindow;

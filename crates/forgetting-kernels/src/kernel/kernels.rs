@@ -69,9 +69,11 @@ pub trait Kernels: Real {
 /// ```text
 /// compile_kernels!(f64, Portable);
 /// ```
+///
+/// With `#[inline]` at the end, other crates compile those that they use.
 #[macro_export]
 macro_rules! compile_kernels {
-    ($Number:ty, $Dispatch:ty) => {
+    ($Number:ty, $Dispatch:ty $(, #[$inline:meta])?) => {
         const _: () = {
             use $crate::kernel::agee_turner::AgeeTurner;
             use $crate::kernel::eigen::RankOneUpdate;
@@ -89,39 +91,51 @@ macro_rules! compile_kernels {
             use $crate::{Dispatch, Kernels};
 
             impl Kernels for $Number {
+                $(#[$inline])?
                 fn dot(task: Dot<'_, Self>) -> Self {
                     <$Dispatch>::run(task)
                 }
+                $(#[$inline])?
                 fn add_scaled(task: AddScaled<'_, Self>) {
                     <$Dispatch>::run(task)
                 }
+                $(#[$inline])?
                 fn arrive(task: Arrive<'_, Self>) -> (Self, Self) {
                     <$Dispatch>::run(task)
                 }
+                $(#[$inline])?
                 fn leverage(task: Leverage<'_, Self>) -> Self {
                     <$Dispatch>::run(task)
                 }
+                $(#[$inline])?
                 fn measure(task: Measure<'_, Self>) -> Option<Measured<Self>> {
                     <$Dispatch>::run(task)
                 }
+                $(#[$inline])?
                 fn agee_turner(task: AgeeTurner<'_, Self>) {
                     <$Dispatch>::run(task)
                 }
+                $(#[$inline])?
                 fn solve(task: Solve<'_, Self>) {
                     <$Dispatch>::run(task)
                 }
+                $(#[$inline])?
                 fn multiply(task: Multiply<'_, Self>) {
                     <$Dispatch>::run(task)
                 }
+                $(#[$inline])?
                 fn multiply_transposed(task: MultiplyTransposed<'_, Self>) {
                     <$Dispatch>::run(task)
                 }
+                $(#[$inline])?
                 fn variances(task: Variances<'_, Self>) {
                     <$Dispatch>::run(task)
                 }
+                $(#[$inline])?
                 fn advance(steps: &mut Steps<'_, Self>) -> usize {
                     runs::advance::<Self, $Dispatch>(steps)
                 }
+                $(#[$inline])?
                 fn advance_streams(
                     streams: &mut Streams<'_, Self>,
                     samples: Samples<'_, Self>,
@@ -129,30 +143,38 @@ macro_rules! compile_kernels {
                 ) -> usize {
                     <$Dispatch>::run(Advance { streams, samples, outputs })
                 }
+                $(#[$inline])?
                 fn advance_together(task: Together<'_, Self>) -> usize {
                     <$Dispatch>::run(task)
                 }
+                $(#[$inline])?
                 fn mix_thetas(task: MixThetas<'_, Self>) {
                     <$Dispatch>::run(task)
                 }
+                $(#[$inline])?
                 fn scale_rows(task: ScaleRows<'_, Self>) {
                     <$Dispatch>::run(task)
                 }
+                $(#[$inline])?
                 fn sum_roots(task: SumRoots<'_, Self>) {
                     <$Dispatch>::run(task)
                 }
+                $(#[$inline])?
                 fn predict_streams(task: Predict<'_, Self>) {
                     <$Dispatch>::run(task)
                 }
+                $(#[$inline])?
                 fn watch_run(task: Watch<'_, Self>, samples: Observations<'_, Self>) -> usize {
                     <$Dispatch>::run(task.of(samples))
                 }
+                $(#[$inline])?
                 fn watch_one(
                     task: Watch<'_, Self>,
                     sample: Option<Observation<'_, Self>>,
                 ) -> usize {
                     <$Dispatch>::run(task.of(sample))
                 }
+                $(#[$inline])?
                 fn update_eigenvectors(task: RankOneUpdate<'_, Self>) -> bool {
                     <$Dispatch>::run(task)
                 }

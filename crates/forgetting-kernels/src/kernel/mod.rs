@@ -40,6 +40,7 @@ pub mod agee_turner;
 mod along;
 mod batch;
 mod bierman;
+pub mod compact;
 mod copies;
 pub mod dispatch;
 pub mod eigen;
@@ -86,7 +87,10 @@ macro_rules! compile_portable {
                 }
             }
 
+            #[cfg(not(feature = "on-demand"))]
             compile_kernels!($float, Unit);
+            #[cfg(feature = "on-demand")]
+            compile_kernels!($float, Unit, #[inline]);
         }
     };
 }

@@ -2,53 +2,56 @@
 
 use super::Value;
 use crate::error::Error;
-use alloc::vec::Vec;
+
+/// Takes bytes, one piece after the other.
+pub(crate) type Put<'a> = dyn FnMut(&[u8]) + 'a;
+
+/// Shows every parameter of a choice with its name and its value; asked twice.
+pub(crate) type Each<'a> = dyn Fn(&mut dyn FnMut(&str, Value<'_>)) + 'a;
 
 /// A name, then its parameters: their number, and each one's name and value.
-pub(crate) fn write(
-    bytes: &mut Vec<u8>,
-    name: &str,
-    each: impl FnOnce(&mut dyn FnMut(&str, Value<'_>)),
-) -> Result<(), Error> {
-    word(bytes, name);
-    bytes.push(0);
-    let (position, mut count, mut outcome) = (bytes.len() - 1, 0, Ok(()));
+///
+/// # Errors
+/// [`Error::Unsupported`] for a function, which is not data.
+pub(crate) fn write(put: &mut Put<'_>, name: &str, each: &Each<'_>) -> Result<(), Error> {
+    word(put, name);
+    let (mut count, mut outcome) = (0, Ok(()));
+    each(&mut |_, _| count += 1);
+    put(&[count]);
     each(&mut |name, given| {
-        count += 1;
-        word(bytes, name);
-        outcome = outcome.and(value(bytes, given));
+        word(put, name);
+        outcome = outcome.and(value(put, given));
     });
-    bytes[position] = count;
     outcome
 }
 
-fn word(bytes: &mut Vec<u8>, word: &str) {
-    bytes.extend_from_slice(&(word.len() as u16).to_le_bytes());
-    bytes.extend_from_slice(word.as_bytes());
+fn word(put: &mut Put<'_>, word: &str) {
+    put(&(word.len() as u16).to_le_bytes());
+    put(word.as_bytes());
 }
 
-fn value(bytes: &mut Vec<u8>, value: Value<'_>) -> Result<(), Error> {
+fn value(put: &mut Put<'_>, value: Value<'_>) -> Result<(), Error> {
     match value {
         Value::Real(x) => {
-            bytes.push(0);
-            bytes.extend_from_slice(&x.to_le_bytes());
+            put(&[0]);
+            put(&x.to_le_bytes());
         }
         Value::Word(text) => {
-            bytes.push(1);
-            word(bytes, text);
+            put(&[1]);
+            word(put, text);
         }
         Value::Matrix { rows, columns, elements } => {
-            bytes.push(2);
+            put(&[2]);
             for size in [rows, columns] {
-                bytes.extend_from_slice(&(size as u32).to_le_bytes());
+                put(&(size as u32).to_le_bytes());
             }
             for k in 0..rows * columns {
-                bytes.extend_from_slice(&elements(k).to_le_bytes());
+                put(&elements(k).to_le_bytes());
             }
         }
         Value::Choice { name, values } => {
-            bytes.push(3);
-            write(bytes, name, |each| values.each(each))?;
+            put(&[3]);
+            write(put, name, &|each| values.each(each))?;
         }
         Value::Function(_) => {
             let reason = "an estimator that uses a function of yours cannot be saved: a function \

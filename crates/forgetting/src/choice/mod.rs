@@ -2,7 +2,6 @@
 //! registry that lists it.
 
 mod about;
-#[cfg(feature = "alloc")]
 pub(crate) mod bytes;
 #[cfg(feature = "alloc")]
 pub mod function;

@@ -93,7 +93,6 @@ impl<M: Memory> Factor<M> {
     }
 
     /// Recomputes the bound of P's trace where the one that was read cannot be a bound.
-    #[cfg(feature = "alloc")]
     pub(crate) fn check_bound(&mut self) {
         // half of it, for rounding
         if !(self.trace_bound >= M::Real::from_f64(0.5) * self.trace()) {

@@ -2,7 +2,6 @@
 
 use crate::covariance::Factor;
 use crate::error::Error;
-#[cfg(feature = "alloc")]
 use crate::memory::state::Visitor;
 use crate::memory::Memory;
 use forgetting_kernels::Real;
@@ -115,13 +114,11 @@ impl<M: Memory> Prior<M> {
     }
 
     /// Whether every number is one that could have been given.
-    #[cfg(feature = "alloc")]
     pub(crate) fn is_sound(&self) -> bool {
         let theta = self.theta.as_ref();
         theta.iter().all(|x| x.abs() <= M::Real::CEILING) && self.factor().is_sound()
     }
 
-    #[cfg(feature = "alloc")]
     /// How P₀ was given: 0 a scalar, 1 a diagonal, 2 a matrix, 3 not at all.
     pub(crate) fn form(&self) -> u8 {
         match self.covariance {
@@ -132,7 +129,6 @@ impl<M: Memory> Prior<M> {
         }
     }
 
-    #[cfg(feature = "alloc")]
     /// A prior of this form, its numbers to be restored by [`Prior::visit`].
     pub(crate) fn of_form(memory: M, form: u8) -> Result<Self, Error> {
         let covariance = match form {
@@ -146,7 +142,6 @@ impl<M: Memory> Prior<M> {
     }
 
     /// Visits every number, to save or restore it.
-    #[cfg(feature = "alloc")]
     pub(crate) fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
         visitor.reals(self.theta.as_mut());
         match &mut self.covariance {

@@ -3,25 +3,31 @@
 use super::design::Design;
 use super::{Estimator, Recursion};
 use crate::error::Error;
-use crate::memory::Dynamic;
+use crate::memory::Memory;
 use crate::rates::{AnyRate, Constant, Rate};
 use crate::rules::Rule;
 use crate::sample::NoiseVariance;
 use crate::weightings::AnyWeighting;
-use forgetting_kernels::kernel::form::Form;
-use forgetting_kernels::Kernels;
+#[cfg(feature = "alloc")]
+use {
+    crate::memory::Dynamic,
+    forgetting_kernels::{kernel::form::Form, Kernels},
+};
 
-/// An estimator of any size, rule, rate, weighting and gate, chosen at run time.
-pub type AnyEstimator<T> =
-    Estimator<Rule<Dynamic<T>>, AnyRate<Dynamic<T>>, AnyWeighting<Dynamic<T>>, Dynamic<T>>;
+/// An estimator of which rule, rate, weighting and gate are chosen by name.
+pub type Named<M> = Estimator<Rule<M>, AnyRate<M>, AnyWeighting<M>, M>;
 
-impl<T: Kernels> AnyEstimator<T> {
+/// An estimator of which the size is chosen at run time, too.
+#[cfg(feature = "alloc")]
+pub type AnyEstimator<T> = Named<Dynamic<T>>;
+
+impl<M: Memory> Named<M> {
     /// Forgets by this constant factor from now on, λ in (0, 1].
     ///
     /// # Errors
     /// [`Error`] names the factor unless it is in range, or says that the estimator has a rate that chooses
     /// it; nothing has changed.
-    pub fn set_forgetting_factor(&mut self, factor: T) -> Result<(), Error> {
+    pub fn set_forgetting_factor(&mut self, factor: M::Real) -> Result<(), Error> {
         let constant = Constant::new(factor)?;
         let Design { rule, rate, weighting, gate, prior, estimates_noise, .. } =
             self.recursion.design.clone();
@@ -32,11 +38,6 @@ impl<T: Kernels> AnyEstimator<T> {
         let design = Design::new(rule, AnyRate::Constant(constant), weighting, gate, prior);
         self.recursion.design = Design { estimates_noise, ..design };
         Ok(())
-    }
-
-    /// How every sample changes P, if there is nothing to do but to forget, measure and correct.
-    pub(crate) fn form(&self) -> Option<Form<T>> {
-        self.recursion.design.steady.map(|steady| steady.form)
     }
 
     /// Whether the variance of the noise is to be estimated where Γ is not given, if any choice needs
@@ -50,6 +51,22 @@ impl<T: Kernels> AnyEstimator<T> {
     /// Whether it does so.
     pub(crate) fn estimates_noise(&self) -> bool {
         self.recursion.design.estimates_noise
+    }
+
+    /// [`Estimator::is_sound`] for a state read from bytes; repairs its bound on P's trace if that
+    /// is not one.
+    pub(crate) fn check_read(&mut self) -> bool {
+        let sound = self.is_sound();
+        self.recursion.state.factor.check_bound();
+        sound
+    }
+}
+
+#[cfg(feature = "alloc")]
+impl<T: Kernels> AnyEstimator<T> {
+    /// How every sample changes P, if there is nothing to do but to forget, measure and correct.
+    pub(crate) fn form(&self) -> Option<Form<T>> {
+        self.recursion.design.steady.map(|steady| steady.form)
     }
 
     /// Renews the units of the data after the last sample, for which that is due.
@@ -69,13 +86,5 @@ impl<T: Kernels> AnyEstimator<T> {
     pub(crate) fn change_units(&mut self, ratios: &[T]) {
         let changed = self.recursion.change_units(ratios);
         debug_assert!(changed.is_ok(), "there is room");
-    }
-
-    /// [`Estimator::is_sound`] for a state read from bytes; repairs its bound on P's trace if that
-    /// is not one.
-    pub(crate) fn check_read(&mut self) -> bool {
-        let sound = self.is_sound();
-        self.recursion.state.factor.check_bound();
-        sound
     }
 }

@@ -7,7 +7,6 @@
 //! ```
 
 mod accessors;
-#[cfg(feature = "alloc")]
 mod any;
 mod design;
 mod diagnostics;
@@ -30,6 +29,7 @@ use crate::sample::{Noise, Update, Whitened};
 use crate::weightings::Weighting;
 #[cfg(feature = "alloc")]
 pub use any::AnyEstimator;
+pub use any::Named;
 use design::{Design, WINDUP};
 use forgetting_kernels::kernel::outcome::Outcome;
 use forgetting_kernels::Real;

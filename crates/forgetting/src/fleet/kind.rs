@@ -1,7 +1,6 @@
 //! Which estimators can be streams of one fleet.
 
 use crate::choice::bytes;
-use crate::choice::Value;
 use crate::error::Error;
 use crate::estimator::AnyEstimator;
 use crate::gates::Gate;
@@ -61,31 +60,29 @@ pub fn check_stream<T: Kernels>(estimator: &AnyEstimator<T>) -> Result<(), Error
 }
 
 /// A choice as it is saved: two are the same if their bytes are.
-fn written(
-    name: &str,
-    each: impl FnOnce(&mut dyn FnMut(&str, Value<'_>)),
-) -> Result<Vec<u8>, Error> {
+fn written(name: &str, each: &bytes::Each<'_>) -> Result<Vec<u8>, Error> {
     let mut written = Vec::new();
-    bytes::write(&mut written, name, each)?;
+    bytes::write(&mut |bytes| written.extend_from_slice(bytes), name, each)?;
     Ok(written)
 }
 
 fn rule<T: Kernels>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
     let rule = estimator.rule();
-    written(rule.about().name, |each| rule.describe(&mut |name, value| each(name, value)))
+    written(rule.about().name, &|each| rule.describe(&mut |name, value| each(name, value)))
 }
 
 fn rate<T: Kernels>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
     let rate = estimator.rate();
-    written(rate.about().name, |each| rate.describe(&mut |name, value| each(name, value)))
+    written(rate.about().name, &|each| rate.describe(&mut |name, value| each(name, value)))
 }
 
 fn weighting<T: Kernels>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
     let weighting = estimator.weighting();
-    written(weighting.about().name, |each| weighting.describe(&mut |name, value| each(name, value)))
+    let each: &bytes::Each<'_> = &|each| weighting.describe(&mut |name, value| each(name, value));
+    written(weighting.about().name, each)
 }
 
 fn gate<T: Kernels>(estimator: &AnyEstimator<T>) -> Result<Vec<u8>, Error> {
     let gate = estimator.gate();
-    written(gate.about().name, |each| gate.describe(&mut |name, value| each(name, value)))
+    written(gate.about().name, &|each| gate.describe(&mut |name, value| each(name, value)))
 }

@@ -39,21 +39,6 @@ impl<T: Real> Dynamic<T> {
     }
 }
 
-impl<T: Real> Dynamic<T> {
-    /// Refuses sizes for which there is no memory, before any is taken: for `count` estimators that
-    /// keep `squares` times n x n numbers beside P.
-    ///
-    /// # Errors
-    /// [`Error::Memory`].
-    pub fn check_room(&self, squares: usize, count: usize) -> Result<(), Error> {
-        let Self { parameters: n, rows: p, targets: m, .. } = *self;
-        // each at most 2³⁰
-        let of_rows = p * (2 * p + 8 * n + 6 * m);
-        let numbers = (squares + 1) as u64 * (n * n) as u64 + (of_rows + 4 * m * n) as u64;
-        check_room::<T>(numbers.saturating_mul(count as u64))
-    }
-}
-
 /// Refuses so many numbers if there is no memory for them.
 ///
 /// # Errors
@@ -153,6 +138,16 @@ impl<T: Kernels> Memory for Dynamic<T> {
     #[inline(always)]
     fn targets(&self) -> usize {
         self.targets
+    }
+    fn of_sizes(parameters: usize, rows: usize, targets: usize) -> Result<Self, Error> {
+        Self::new(parameters, rows, targets)
+    }
+    fn check_room(&self, squares: usize, count: usize) -> Result<(), Error> {
+        let Self { parameters: n, rows: p, targets: m, .. } = *self;
+        // each at most 2³⁰
+        let of_rows = p * (2 * p + 8 * n + 6 * m);
+        let numbers = (squares + 1) as u64 * (n * n) as u64 + (of_rows + 4 * m * n) as u64;
+        check_room::<T>(numbers.saturating_mul(count as u64))
     }
     fn vector(&self) -> Aligned<T> {
         Aligned::zeros(self.parameters)

@@ -1,7 +1,9 @@
 //! Numbers on the stack, of sizes known to the compiler.
 
 use super::{Buffer, Memory};
+use crate::error::Error;
 use core::marker::PhantomData;
+use forgetting_kernels::kernel::compact::triangle;
 use forgetting_kernels::kernel::layout::{most, set_identity};
 use forgetting_kernels::kernel::scratch;
 use forgetting_kernels::{Kernels, Real};
@@ -9,6 +11,13 @@ use forgetting_kernels::{Kernels, Real};
 /// `B` blocks of `A` numbers on the stack.
 #[derive(Clone, Copy, Debug)]
 pub struct Grid<T, const A: usize, const B: usize>([[T; A]; B]);
+
+impl<T: Real, const A: usize, const B: usize> Grid<T, A, B> {
+    /// All 0.
+    pub(super) fn zeros() -> Self {
+        Self([[T::ZERO; A]; B])
+    }
+}
 
 impl<T, const A: usize, const B: usize> AsRef<[T]> for Grid<T, A, B> {
     #[inline(always)]
@@ -30,10 +39,14 @@ pub trait Packed<T> {
     type Triangle: Buffer<T>;
     /// [`scratch`] of n numbers
     type Scratch: Buffer<T>;
+    /// the numbers of U above its diagonal
+    type Compact: Buffer<T>;
     /// U = I
     fn triangle() -> Self::Triangle;
     /// Zeros.
     fn scratch() -> Self::Scratch;
+    /// Zeros: U = I.
+    fn compact() -> Self::Compact;
 }
 
 /// The size `N` as a type.
@@ -45,6 +58,7 @@ macro_rules! packed {
         impl<T: Real> Packed<T> for Size<$n> {
             type Triangle = [T; most($n)];
             type Scratch = [T; scratch($n)];
+            type Compact = [T; triangle($n)];
             fn triangle() -> Self::Triangle {
                 let mut triangle = [T::ZERO; most($n)];
                 set_identity(&mut triangle, $n);
@@ -52,6 +66,9 @@ macro_rules! packed {
             }
             fn scratch() -> Self::Scratch {
                 [T::ZERO; scratch($n)]
+            }
+            fn compact() -> Self::Compact {
+                [T::ZERO; triangle($n)]
             }
         }
     )*};
@@ -101,6 +118,12 @@ where
     fn targets(&self) -> usize {
         M
     }
+    fn of_sizes(parameters: usize, rows: usize, targets: usize) -> Result<Self, Error> {
+        Error::check_length("parameters", parameters, N)?;
+        Error::check_length("rows", rows, P)?;
+        Error::check_length("targets", targets, M)?;
+        Ok(Self::new())
+    }
     fn vector(&self) -> [T; N] {
         [T::ZERO; N]
     }
@@ -108,19 +131,19 @@ where
         Size::<N>::triangle()
     }
     fn square(&self) -> Self::Square {
-        Grid([[T::ZERO; N]; N])
+        Grid::zeros()
     }
     fn regressors(&self) -> Self::Rows {
-        Grid([[T::ZERO; N]; P])
+        Grid::zeros()
     }
     fn noise(&self) -> Self::Noise {
-        Grid([[T::ZERO; P]; P])
+        Grid::zeros()
     }
     fn errors(&self) -> Self::Errors {
-        Grid([[T::ZERO; M]; P])
+        Grid::zeros()
     }
     fn theta(&self) -> Self::Parameters {
-        Grid([[T::ZERO; N]; M])
+        Grid::zeros()
     }
     fn scratch(&self) -> Self::Scratch {
         <Size<N> as Packed<T>>::scratch()

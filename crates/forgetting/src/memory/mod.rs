@@ -1,8 +1,10 @@
 //! Where an estimator keeps its numbers: on the stack, of a size known to the compiler
-//! ([`Fixed`]), or on the heap, of a size known when it is made ([`Dynamic`]).
+//! ([`Fixed`]) or up to one ([`UpTo`]), or on the heap, of a size known when it is made
+//! ([`Dynamic`]).
 //!
 //! The algorithms see slices only, so that both give the same bits.
 
+use crate::error::Error;
 use core::fmt::Debug;
 use forgetting_kernels::Kernels;
 
@@ -10,10 +12,12 @@ use forgetting_kernels::Kernels;
 mod dynamic;
 mod fixed;
 pub mod state;
+mod up_to;
 
 #[cfg(feature = "alloc")]
 pub use dynamic::{zeros, Aligned, Dynamic};
 pub use fixed::{Fixed, Grid, Packed, Size};
+pub use up_to::{Part, UpTo};
 
 /// A block of numbers that is read and written as one slice.
 pub trait Buffer<T>: Clone + Debug + Send + Sync + AsRef<[T]> + AsMut<[T]> {}
@@ -54,6 +58,21 @@ pub trait Memory: Copy + Debug + Send + Sync + 'static {
     fn rows(&self) -> usize;
     /// m
     fn targets(&self) -> usize;
+
+    /// Memory for these sizes.
+    ///
+    /// # Errors
+    /// [`Error`] names a size that is not one of this memory.
+    fn of_sizes(parameters: usize, rows: usize, targets: usize) -> Result<Self, Error>;
+    /// Refuses sizes for which there is no memory, before any is taken: for `count` estimators that
+    /// keep `squares` times n x n numbers beside P.
+    ///
+    /// # Errors
+    /// [`Error::Memory`].
+    fn check_room(&self, squares: usize, count: usize) -> Result<(), Error> {
+        let _ = (squares, count);
+        Ok(())
+    }
 
     /// n zeros
     fn vector(&self) -> Self::Vector;

@@ -9,7 +9,7 @@ mod along_sample;
 mod block_root;
 mod blocks;
 pub mod criterion;
-mod cycle;
+pub(crate) mod cycle;
 mod ellipsoid;
 mod root;
 
@@ -204,7 +204,7 @@ registry! {
         }
 
         fn name(&self) -> &'static str {
-            self.about().name
+            Self::called(self)
         }
     }
 }

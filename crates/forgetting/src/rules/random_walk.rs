@@ -61,7 +61,7 @@ use forgetting_kernels::kernel::functions::dot;
 use forgetting_kernels::kernel::layout::FEW;
 use forgetting_kernels::Real;
 
-const PROCESS_NOISE: Parameter = Parameter::elements(
+pub(crate) const PROCESS_NOISE: Parameter = Parameter::elements(
     "process_noise",
     Kind::Matrix,
     1e-4,
@@ -69,7 +69,7 @@ const PROCESS_NOISE: Parameter = Parameter::elements(
     "covariance of the parameters' steps: c for c*I, n numbers for a diagonal, or n x n",
 );
 
-const BOUND: Parameter = Parameter {
+pub(crate) const BOUND: Parameter = Parameter {
     name: "bound",
     about: "what no variance grows beyond without excitation; not bounded if not given",
     kind: Kind::Real,
@@ -78,7 +78,7 @@ const BOUND: Parameter = Parameter {
     optional: true,
 };
 
-const SCHEDULE: Parameter = cycle::schedule(
+pub(crate) const SCHEDULE: Parameter = cycle::schedule(
     "when process_noise is added: all of it at each sample, or one direction a sample, in O(n^2)",
 );
 

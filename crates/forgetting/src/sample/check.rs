@@ -47,7 +47,7 @@ impl<M: Memory> SampleBuffers<M> {
 
 /// Which part of a sample with an innovation that is too large is to blame.
 #[cold]
-fn blame<T: Real>(phi: &[T], y: &[T], largest: T) -> Error {
+pub(crate) fn blame<T: Real>(phi: &[T], y: &[T], largest: T) -> Error {
     for (parameter, values) in [("phi", phi), ("y", y)] {
         if let Some(index) = values.iter().position(|x| !x.is_finite()) {
             return not_finite(parameter, index, values[index]);

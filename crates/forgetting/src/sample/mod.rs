@@ -22,7 +22,7 @@ use forgetting_kernels::Real;
 pub use answer::Answer;
 pub(crate) use buffers::SampleBuffers;
 pub use buffers::Work;
-pub(crate) use check::{not_finite, out_of_range};
+pub(crate) use check::{blame, not_finite, out_of_range};
 pub(crate) use cholesky::cholesky;
 pub(crate) use elapsed::{check_elapsed, factor_after};
 pub use evidence::{Evidence, Needs};

@@ -12,15 +12,13 @@
 //! | check | CRC-32 of all before it |
 
 use super::read::Reader;
-use super::write::Numbers;
-use super::{crc32, unaltered, AnyEstimator, Error, Vec};
+use super::write::Output;
+use super::{unaltered, AnyEstimator, Error, Vec, MARK_OF_BANK as MARK};
 use crate::bank::Bank;
-use crate::choice::bytes::write as choice;
 use crate::memory::Dynamic;
 use crate::mixers::{AnyMixer, Mixer};
 use forgetting_kernels::Kernels;
 
-pub(super) const MARK: &[u8; 5] = b"FGBNK";
 const VERSION: u8 = 1;
 
 impl<T: Kernels> Bank<T> {
@@ -29,21 +27,23 @@ impl<T: Kernels> Bank<T> {
     /// # Errors
     /// [`Error::Unsupported`] when a part of it is a function of the user's.
     pub fn to_bytes(&self) -> Result<Vec<u8>, Error> {
-        let mut bytes = Vec::from(MARK.as_slice());
-        bytes.extend_from_slice(&[VERSION, T::BYTES as u8, u8::from(self.follows_data())]);
-        bytes.extend_from_slice(&(self.members().len() as u16).to_le_bytes());
+        let mut bytes = Vec::new();
+        let mut keep = |piece: &[u8]| bytes.extend_from_slice(piece);
+        let mut output = Output::new(&mut keep);
+        output.bytes(MARK);
+        output.bytes(&[VERSION, T::BYTES as u8, u8::from(self.follows_data())]);
+        output.bytes(&(self.members().len() as u16).to_le_bytes());
         for member in self.members().iter() {
             let member = member.to_bytes()?;
-            bytes.extend_from_slice(&(member.len() as u32).to_le_bytes());
-            bytes.extend_from_slice(&member);
+            output.bytes(&(member.len() as u32).to_le_bytes());
+            output.bytes(&member);
         }
         let mixer = self.mixer();
-        choice(&mut bytes, mixer.about().name, |each| {
+        output.choice(mixer.called(), &|each| {
             mixer.describe(&mut |name, value| each(name, value));
         })?;
-        self.clone().visit_own(&mut Numbers(&mut bytes));
-        let check = crc32(&bytes);
-        bytes.extend_from_slice(&check.to_le_bytes());
+        self.clone().visit_own(&mut output);
+        output.finish();
         Ok(bytes)
     }
 
@@ -63,8 +63,8 @@ impl<T: Kernels> Bank<T> {
             let length = reader.size()?;
             members.push(AnyEstimator::<T>::from_bytes(reader.take(length)?)?);
         }
-        let (name, parameters) = reader.choice(0)?;
-        let mixer = AnyMixer::named(&name, &parameters, Dynamic::new(count, 1, 1)?)?;
+        let (name, parameters) = reader.choice()?;
+        let mixer = AnyMixer::named(name, &parameters, Dynamic::new(count, 1, 1)?)?;
         // a new bank starts its members: they are put back
         let mut bank = Self::with_units(members.clone(), mixer, follows_data)?;
         bank.put_members(members);

@@ -19,66 +19,77 @@
 use crate::choice::{Value, Values};
 use crate::covariance::Prior;
 use crate::error::Error;
-use crate::estimator::Estimator;
+use crate::estimator::{Estimator, Named};
 use crate::gates::{AnyGate, Gate, Open};
 use crate::memory::state::Visitor;
-use crate::memory::{Dynamic, Memory};
+use crate::memory::Memory;
 use crate::rates::{AnyRate, Rate};
 use crate::rules::{Forgetting, Rule};
 use crate::weightings::{AnyWeighting, Weighting};
-use alloc::{boxed::Box, string::String, vec::Vec};
-use forgetting_kernels::Kernels;
 use forgetting_kernels::Real;
+#[cfg(feature = "alloc")]
+use {alloc::vec::Vec, forgetting_kernels::Kernels};
 
+#[cfg(feature = "alloc")]
 mod bank;
+#[cfg(feature = "alloc")]
 mod model;
 mod read;
 mod write;
 
+pub(crate) use read::Reader;
+pub(crate) use write::Output;
+
+#[cfg(feature = "alloc")]
 pub use crate::estimator::AnyEstimator;
+#[cfg(feature = "alloc")]
 pub use bank::bank_number_type;
 
 /// The version of the format that is written, and the latest that is read.
 pub const VERSION: u8 = 2;
-const MARK: &[u8; 5] = b"FGRLS";
+pub(crate) const MARK: &[u8; 5] = b"FGRLS";
+const MARK_OF_BANK: &[u8; 5] = b"FGBNK";
 const MONITORED: u8 = 1;
 const NOISE_ESTIMATED: u8 = 2;
 
-impl<T: Kernels> AnyEstimator<T> {
-    /// The estimator, configuration and state, as bytes.
+impl<M: Memory> Named<M> {
+    /// Gives the estimator, configuration and state, as bytes to `put`, piece by piece; returns how
+    /// many they are. Nothing of the estimator changes.
     ///
     /// # Errors
     /// [`Error::Unsupported`] when a part of it is a function of the user's, [`Error::State`] for so
-    /// many rows that the bytes could not tell of the memory they take (about 2000), and
-    /// [`Error::Memory`].
-    pub fn to_bytes(&self) -> Result<Vec<u8>, Error> {
-        let mut bytes = write::header(self)?;
-        let (mut prior, mut all) = (self.prior().clone(), self.clone());
-        let mut length = write::Length(0);
+    /// many rows that the bytes could not tell of the memory they take (about 2000).
+    pub fn save(&mut self, put: &mut dyn FnMut(&[u8])) -> Result<usize, Error> {
+        let mut count = 0;
+        let mut counted = |bytes: &[u8]| {
+            count += bytes.len();
+            put(bytes);
+        };
+        let mut output = write::Output::new(&mut counted);
+        let (mut prior, mut length) = (self.prior().clone(), write::Length(0));
         prior.visit(&mut length);
-        all.visit(&mut length);
+        self.visit(&mut length);
         read::check_rows(self.prior().memory(), length.0)?;
-        bytes.try_reserve(length.0 + 4).map_err(|_| Error::Memory)?;
-        let mut numbers = write::Numbers(&mut bytes);
-        prior.visit(&mut numbers);
-        all.visit(&mut numbers);
-        let check = crc32(&bytes);
-        bytes.extend_from_slice(&check.to_le_bytes());
-        Ok(bytes)
+        write::header(&mut output, self)?;
+        prior.visit(&mut output);
+        self.visit(&mut output);
+        output.finish();
+        Ok(count)
     }
 
-    /// The estimator that [`Estimator::to_bytes`] saved.
+    /// The estimator that was saved as these bytes.
     ///
     /// # Errors
     /// [`Error::State`] says what is wrong with the bytes: another format, a later version,
-    /// another number type, a length that does not fit or a check that fails.
+    /// another number type, a length that does not fit or a check that fails; others what does not
+    /// fit the memory.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
         let body = checked(bytes)?;
         let mut reader = read::Reader::new(&body[MARK.len() + 1..]);
-        let (mut estimator, old_monitor) = read::header::<T>(&mut reader, body[MARK.len()])?;
+        let (mut estimator, old_monitor) = read::header::<M>(&mut reader, body[MARK.len()])?;
         estimator.visit(&mut reader);
         if old_monitor {
-            reader.skip_old_monitor::<T>(estimator.prior().memory().parameters())?;
+            reader.skip_old_monitor::<M::Real>(estimator.prior().memory().parameters())?;
         }
         reader.finish()?;
         if old_monitor {
@@ -92,8 +103,24 @@ impl<T: Kernels> AnyEstimator<T> {
     }
 }
 
+#[cfg(feature = "alloc")]
+impl<T: Kernels> AnyEstimator<T> {
+    /// The estimator, configuration and state, as bytes.
+    ///
+    /// # Errors
+    /// Those of [`AnyEstimator::save`], and [`Error::Memory`].
+    pub fn to_bytes(&self) -> Result<Vec<u8>, Error> {
+        let mut estimator = self.clone();
+        let length = estimator.save(&mut |_| {})?;
+        let mut bytes = Vec::new();
+        bytes.try_reserve_exact(length).map_err(|_| Error::Memory)?;
+        estimator.save(&mut |piece| bytes.extend_from_slice(piece))?;
+        Ok(bytes)
+    }
+}
+
 /// The bytes that the state of an estimator of the sizes of this one takes at least.
-pub fn least_length<T: Kernels>(estimator: &AnyEstimator<T>) -> usize {
+pub fn least_length<M: Memory>(estimator: &Named<M>) -> usize {
     read::least_length(estimator.prior().memory(), u8::MAX)
 }
 
@@ -109,9 +136,9 @@ pub fn number_type(bytes: &[u8]) -> Result<usize, Error> {
 }
 
 /// The bytes without their check, if they are of this format and unaltered.
-fn checked(bytes: &[u8]) -> Result<&[u8], Error> {
+pub(crate) fn checked(bytes: &[u8]) -> Result<&[u8], Error> {
     let refuse = |reason| Err(Error::State { reason });
-    if bytes.starts_with(bank::MARK) {
+    if bytes.starts_with(MARK_OF_BANK) {
         return refuse("it is a saved bank of estimators, not one estimator");
     }
     if !bytes.starts_with(MARK) {
@@ -144,12 +171,17 @@ fn unaltered(bytes: &[u8], latest: u8) -> Result<&[u8], Error> {
 
 /// The cyclic redundancy check of IEEE 802.3.
 fn crc32(bytes: &[u8]) -> u32 {
+    !crc32_of(u32::MAX, bytes)
+}
+
+/// The same before its last step, from where it was before these bytes.
+fn crc32_of(check: u32, bytes: &[u8]) -> u32 {
     let step = |crc: u32, &byte: &u8| {
         (0..8).fold(crc ^ u32::from(byte), |crc, _| {
             (crc >> 1) ^ (0xEDB8_8320 & (crc & 1).wrapping_neg())
         })
     };
-    !bytes.iter().fold(u32::MAX, step)
+    bytes.iter().fold(check, step)
 }
 
 #[cfg(test)]

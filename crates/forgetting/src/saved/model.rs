@@ -11,8 +11,8 @@
 //! | check | CRC-32 of all before it |
 
 use super::read::Reader;
-use super::write::Numbers;
-use super::{crc32, unaltered, Error, Vec};
+use super::write::Output;
+use super::{unaltered, Error, Vec};
 use crate::models::{InputOrders, Method, Orders, Polynomial};
 
 const MARK: &[u8; 5] = b"FGMOD";
@@ -22,17 +22,19 @@ impl Polynomial {
     /// The model, orders and state, as bytes.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
-        let mut bytes = Vec::from(MARK.as_slice());
+        let mut bytes = Vec::new();
+        let mut keep = |piece: &[u8]| bytes.extend_from_slice(piece);
+        let mut output = Output::new(&mut keep);
         let (orders, method) = (self.orders(), self.method() as u8);
-        bytes.extend_from_slice(&[VERSION, method, u8::from(orders.constant)]);
-        let mut put = |order: usize| bytes.extend_from_slice(&(order as u16).to_le_bytes());
+        output.bytes(MARK);
+        output.bytes(&[VERSION, method, u8::from(orders.constant)]);
+        let mut put = |order: usize| output.bytes(&(order as u16).to_le_bytes());
         [orders.na, orders.nc, orders.nd, orders.inputs.len()].into_iter().for_each(&mut put);
         for input in &orders.inputs {
             [input.nb, input.nf, input.nk].into_iter().for_each(&mut put);
         }
-        self.clone().visit(&mut Numbers(&mut bytes));
-        let check = crc32(&bytes);
-        bytes.extend_from_slice(&check.to_le_bytes());
+        self.clone().visit(&mut output);
+        output.finish();
         bytes
     }
 

@@ -166,7 +166,7 @@ where
 
 /// A sample in the dead zone.
 #[inline(always)]
-fn left_out<T: Real, A: One<T>, U: Unit<A, N>, const N: usize>(
+pub fn left_out<T: Real, A: One<T>, U: Unit<A, N>, const N: usize>(
     small: &Small<A, N, U>,
     error: T,
     f: &[A; N],

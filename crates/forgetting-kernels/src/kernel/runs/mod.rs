@@ -10,6 +10,7 @@ use super::measure::Place;
 use super::outcome::Outcome;
 use crate::kernel::form::Form;
 use crate::number::Real;
+pub(super) use few::left_out;
 use few::{Few, ALONG, SCALE, WALK};
 use many::Many;
 
@@ -53,13 +54,13 @@ fn few<T: Real, D: Dispatch<T>, const N: usize>(steps: &mut Steps<'_, T>) -> usi
 
 /// Whether a sample with this error and ‖φ‖² is one to use: not if either is NaN.
 #[inline(always)]
-fn accepts<T: Real>(error: T, squares: T) -> bool {
+pub(super) fn accepts<T: Real>(error: T, squares: T) -> bool {
     (error.abs() <= T::CEILING) & (squares <= T::CEILING)
 }
 
 impl<T: Real> Form<T> {
     #[inline(always)]
-    fn leaves_out(self, squares: T) -> bool {
+    pub(super) fn leaves_out(self, squares: T) -> bool {
         matches!(self, Self::Along { dead_zone, .. } if dead_zone.holds(squares))
     }
 }

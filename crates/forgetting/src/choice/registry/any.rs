@@ -57,6 +57,22 @@ macro_rules! any_type {
                 }
             }
 
+            /// Its name in the registry.
+            pub fn called(&self) -> &'static str {
+                match self {
+                    $($($(#[$only])* Self::$Choice(_) => stringify!($module),)*)*
+                }
+            }
+
+            /// What the file of the one called `name` says of it, without the names and the text that
+            /// the registry adds: these would be in every program that looks here.
+            pub fn entry(name: &str) -> Option<&'static $crate::choice::About> {
+                match name {
+                    $($($(#[$only])* stringify!($module) => Some(const { &$module::ABOUT }),)*)*
+                    _ => None,
+                }
+            }
+
             /// What the registry says of it.
             pub fn about(&self) -> &'static $crate::choice::About {
                 match self {

@@ -1,0 +1,126 @@
+"""The shared library through ctypes, for the tests."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+from ctypes import POINTER, c_char_p, c_double, c_float, c_int32, c_size_t, c_void_p
+
+import numpy as np
+from numpy.typing import NDArray
+
+NUMBERS = {"float32": 4, "float64": 8}
+OK = 0
+
+
+class Parameter(ctypes.Structure):
+    """`fg_parameter`."""
+
+    _fields_ = [("name", c_char_p), ("number", c_double), ("word", c_char_p)]
+
+
+class Choice(ctypes.Structure):
+    """`fg_choice`."""
+
+    _fields_ = [("name", c_char_p), ("parameters", POINTER(Parameter)), ("count", c_size_t)]
+
+    @classmethod
+    def of(cls, name: str, parameters: dict[str, float | str]) -> Choice:
+        """The choice of this name."""
+        words = [
+            Parameter(key.encode(), 0, value.encode())
+            if isinstance(value, str)
+            else Parameter(key.encode(), value, None)
+            for key, value in parameters.items()
+        ]
+        return cls(name.encode(), (Parameter * len(words))(*words), len(words))
+
+
+class Settings(ctypes.Structure):
+    """`fg_settings`."""
+
+    _fields_ = [
+        ("parameters", c_size_t),
+        ("rule", Choice),
+        ("rate", Choice),
+        ("weighting", Choice),
+        ("gate", Choice),
+        ("forgetting_factor", c_double),
+        ("initial_covariance", c_double),
+        ("initial_theta", POINTER(c_double)),
+        ("monitor", c_int32),
+    ]
+
+
+def load() -> ctypes.CDLL:
+    """The library that the environment names, with the types of its functions."""
+    library = ctypes.CDLL(os.environ["FORGETTING_LIBRARY"])
+    library.fg_find.restype = c_void_p
+    library.fg_find.argtypes = [c_char_p, c_int32, c_size_t]
+    library.fg_size.restype = library.fg_alignment.restype = c_size_t
+    library.fg_size.argtypes = library.fg_alignment.argtypes = [c_void_p]
+    library.fg_strerror.restype = c_char_p
+    for name, real in (("f32", c_float), ("f64", c_double)):
+        update = getattr(library, f"fg_update_{name}")
+        update.argtypes = [c_void_p, c_void_p, c_size_t, real, c_void_p]
+    library.fg_init.argtypes = [c_void_p, c_size_t, c_void_p, c_void_p, c_void_p, c_void_p]
+    library.fg_load.argtypes = [
+        c_void_p,
+        c_size_t,
+        c_void_p,
+        c_char_p,
+        c_size_t,
+        c_void_p,
+        c_void_p,
+    ]
+    library.fg_save.argtypes = [c_void_p, c_void_p, c_size_t, c_void_p]
+    return library
+
+
+class Estimator:
+    """An estimator in memory of its own."""
+
+    def __init__(self, library: ctypes.CDLL, rule: str | None, dtype: str, n: int) -> None:
+        """Memory for a kind."""
+        self.library, self.n = library, n
+        name = None if rule is None else rule.encode()
+        self.kind = library.fg_find(name, NUMBERS[dtype], n)
+        assert self.kind, (rule, dtype, n)
+        self.size = library.fg_size(self.kind)
+        self.memory = (c_double * (self.size // 8 + 1))()
+        self.update_one = getattr(library, "fg_update_" + dtype.replace("loat", ""))
+
+    def init(self, settings: Settings) -> Estimator:
+        """Made from settings."""
+        self.check(self.library.fg_init(*self.place, ctypes.byref(settings), None, None))
+        return self
+
+    def load(self, state: bytes) -> Estimator:
+        """Made from a saved state."""
+        self.check(self.library.fg_load(*self.place, state, len(state), None, None))
+        return self
+
+    @property
+    def place(self) -> tuple[object, ...]:
+        """Memory, size and kind."""
+        return ctypes.addressof(self.memory), self.size, self.kind
+
+    def check(self, code: int) -> None:
+        """Refuses a refusal."""
+        assert code == OK, self.library.fg_strerror(code)
+
+    def update(self, phi: NDArray[np.floating], y: NDArray[np.floating]) -> None:
+        """Takes samples."""
+        phi = np.ascontiguousarray(phi)
+        memory = ctypes.addressof(self.memory)
+        for row, value in zip(phi, y, strict=True):
+            self.check(self.update_one(memory, row.ctypes.data, self.n, value, None))
+
+    def to_bytes(self) -> bytes:
+        """As Python's."""
+        length = c_size_t()
+        memory = ctypes.addressof(self.memory)
+        self.check(self.library.fg_save(memory, None, 0, ctypes.byref(length)))
+        state = ctypes.create_string_buffer(length.value)
+        self.check(self.library.fg_save(memory, state, length.value, ctypes.byref(length)))
+        return state.raw

@@ -1,0 +1,76 @@
+// The library through forgetting.hpp.
+#include "check.h"
+#include <cmath>
+#include <forgetting.hpp>
+#include <type_traits>
+#include <utility>
+
+namespace {
+
+template <class T> void follows_a_line(fg::Estimator<T> estimator) {
+    for (int k = 0; k < 100; ++k) {
+        T x = static_cast<T>(k % 7);
+        auto report = estimator.update({T(1), x}, T(3) + T(0.5) * x);
+        CHECK(report.used == 1);
+    }
+    auto theta = estimator.theta();
+    CHECK(std::abs(theta[0] - T(3)) < T(1e-3) && std::abs(theta[1] - T(0.5)) < T(1e-3));
+    CHECK(std::abs(estimator.predict({T(1), T(2)}) - T(4)) < T(1e-2));
+    CHECK(estimator.covariance().size() == 4 && estimator.samples() == 100);
+    CHECK(estimator.parameters() == 2);
+    fg::Estimator<T> moved = std::move(estimator);
+    CHECK(moved.theta() == theta);
+    moved.reset();
+    CHECK(moved.samples() == 0);
+}
+
+template <class Work> void is_refused(int32_t code, const char *word, Work work) {
+    try {
+        work();
+        CHECK(!"refused");
+    } catch (const fg::Error &error) {
+        CHECK(error.code() == code);
+        CHECK(std::string(error.what()).find(word) != std::string::npos);
+    }
+}
+
+fg::Settings usual() { return fg::Settings(2).forgetting_factor(0.98).initial_covariance(1e4); }
+
+void saved() {
+    fg::Estimator<double> estimator(usual().rule("subspace", {{"threshold", 1e-3}}));
+    estimator.update({1.0, 2.0}, 3.0);
+    auto bytes = estimator.to_bytes();
+    auto loaded = fg::Estimator<double>::from_bytes(bytes, 2);
+    CHECK(loaded.theta() == estimator.theta());
+    is_refused(FG_ERROR_LENGTH, "elements", [&] { fg::Estimator<double>::from_bytes(bytes, 3); });
+    bytes[40] ^= 1;
+    is_refused(FG_ERROR_STATE, "altered", [&] { fg::Estimator<double>::from_bytes(bytes, 2); });
+}
+
+} // namespace
+
+int main() {
+    static_assert(!std::is_copy_constructible_v<fg::Estimator<float>>);
+    static_assert(std::is_nothrow_move_constructible_v<fg::Estimator<float>>);
+    follows_a_line(fg::Estimator<double>(usual()));
+    follows_a_line(fg::Estimator<float>(usual()));
+    follows_a_line(fg::Estimator<float>(usual(), &fg_subspace_f32_2));
+    follows_a_line(fg::Estimator<double>(usual().rule("exponential").rate("constant")
+                                             .gate("open").weighting("equal").initial_theta({1, 1})));
+    saved();
+    fg::Estimator<double> monitored(usual().monitor());
+    monitored.update({1.0, 2.0}, 3.0);
+    CHECK(monitored.health().samples == 1);
+    is_refused(FG_ERROR_VALUE, "forgetting_factor", [] { fg::Estimator<double>(usual().forgetting_factor(2)); });
+    is_refused(FG_ERROR_UNKNOWN, "rule", [] { fg::Estimator<double>(usual().rule("nothing")); });
+    is_refused(FG_ERROR_VALUE, "no kind", [] { fg::Estimator<double>(fg::Settings(99)); });
+    is_refused(FG_ERROR_LENGTH, "elements", [&] { monitored.update({1.0}, 3.0); });
+    is_refused(FG_ERROR_LENGTH, "initial_theta", [] { fg::Estimator<double>(usual().initial_theta({1})); });
+#ifdef FORGETTING_HAS_SPAN
+    const double phi[] = {1, 2};
+    CHECK(monitored.update(std::span<const double>(phi), 3.0).used == 1);
+    return verdict("C++20");
+#else
+    return verdict("C++17");
+#endif
+}

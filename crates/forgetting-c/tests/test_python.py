@@ -1,0 +1,165 @@
+"""An estimator trained in Python goes on in C and back, bit for bit, for every rule, rate,
+weighting and gate that needs no function of the user's. Python is held to plain arithmetic
+(`FORGETTING_CPU=baseline`): with fused multiply-add its numbers are rounded otherwise.
+"""
+
+from __future__ import annotations
+
+import os
+
+import numpy as np
+import pytest
+from library import Choice, Estimator, Settings, load
+from numpy.typing import NDArray
+
+import forgetting as fg
+
+LIBRARY = load()
+N = 3
+COMPACT = ["none", "exponential", "subspace", "directional", "random_walk"]
+DTYPES = ["float32", "float64"]
+# what a choice needs that has no default
+NEEDED = {"component": {"blocks": [1, 2], "factors": [0.9, 0.99]}}
+
+assert os.environ.get("FORGETTING_CPU") == "baseline", "run `make test` in the folder above"
+
+
+def names(axis: str) -> list[str]:
+    """Every entry that needs no function."""
+    entries = getattr(fg, axis)()
+    functions = [
+        e["name"] for e in entries if any(p["kind"] == "function" for p in e["parameters"])
+    ]
+    return [e["name"] for e in entries if e["name"] not in functions]
+
+
+def samples(dtype: str, seed: int, count: int, n: int = N) -> tuple[NDArray, NDArray]:
+    """Samples of parameters that drift, with outliers, silence and samples that repeat."""
+    random = np.random.default_rng(seed)
+    phi = random.normal(size=(count, n))
+    phi[count // 3 : count // 2, 0] = 0
+    phi[-20:-10] = phi[-30:-20]
+    theta = np.cumsum(random.normal(scale=0.02, size=(count, n)), axis=0) + [1.0] * n
+    y = (phi * theta).sum(axis=1) + 0.1 * random.normal(size=count)
+    y[:: count // 7] += 5
+    return phi.astype(dtype), y.astype(dtype)
+
+
+def check_both_ways(estimator: fg.RLS, rule: str | None, dtype: str, n: int = N) -> None:
+    """Python, then C, then Python: at every stop the same bytes as Python alone."""
+    phi, y = samples(dtype, 1, 300, n)
+    for k in range(100):
+        estimator.update(phi[k], y[k])
+    moved = Estimator(LIBRARY, rule, dtype, n).load(estimator.to_bytes())
+    assert moved.to_bytes() == estimator.to_bytes()
+    for k in range(100, 200):
+        estimator.update(phi[k], y[k])
+    moved.update(phi[100:200], y[100:200])
+    assert moved.to_bytes() == estimator.to_bytes()
+    back = fg.RLS.from_bytes(moved.to_bytes())
+    for k in range(200, 300):
+        estimator.update(phi[k], y[k])
+        back.update(phi[k], y[k])
+    assert back.to_bytes() == estimator.to_bytes()
+
+
+@pytest.mark.parametrize("dtype", DTYPES)
+@pytest.mark.parametrize("n", range(1, 9))
+@pytest.mark.parametrize("rule", COMPACT)
+def test_compact(rule: str, n: int, dtype: str) -> None:
+    """Every rule and every size that is compiled as a compact estimator."""
+    rls = fg.RLS(n, rule=rule, initial_covariance=50.0, dtype=dtype)
+    check_both_ways(rls, rule, dtype, n)
+
+
+@pytest.mark.parametrize("dtype", DTYPES)
+def test_walk_with_a_bound(dtype: str) -> None:
+    """The rule that Python takes when nothing is said, compact."""
+    rule = fg.rule("random_walk", process_noise=3e-3, bound=1e3)
+    rls = fg.RLS(4, rule=rule, initial_covariance=50.0, dtype=dtype)
+    check_both_ways(rls, "random_walk", dtype, 4)
+
+
+@pytest.mark.parametrize(
+    ("n", "dtype"),
+    [(n, dtype) for n in (1, 4, 8) for dtype in DTYPES] + [(n, "float64") for n in (9, 17, 32)],
+)
+def test_sizes(n: int, dtype: str) -> None:
+    """General estimators of every class of sizes, with the defaults and the units of the data."""
+    check_both_ways(fg.RLS(n, dtype=dtype), None, dtype, n)
+    check_both_ways(fg.RLS(n, rule="subspace", monitor=True, dtype=dtype), None, dtype, n)
+
+
+@pytest.mark.parametrize("dtype", DTYPES)
+@pytest.mark.parametrize("rule", names("rules"))
+def test_rules(rule: str, dtype: str) -> None:
+    """Every rule as a general estimator, P₀ a number or a matrix."""
+    made = fg.rule(rule, **NEEDED.get(rule, {}))
+    check_both_ways(fg.RLS(N, rule=made, initial_covariance=50.0, dtype=dtype), None, dtype)
+    matrix = np.eye(N) + 0.1
+    check_both_ways(fg.RLS(N, rule=made, initial_covariance=matrix, dtype=dtype), None, dtype)
+
+
+@pytest.mark.parametrize("dtype", DTYPES)
+@pytest.mark.parametrize(
+    ("axis", "name"),
+    [(axis, name) for axis in ("rates", "weightings", "gates") for name in names(axis)],
+)
+def test_other_choices(axis: str, name: str, dtype: str) -> None:
+    """Every rate, weighting and gate, with a monitor."""
+    make = {"rates": fg.rate, "weightings": fg.weighting, "gates": fg.gate}[axis]
+    word = {"rates": "forgetting_factor", "weightings": "weighting", "gates": "gate"}[axis]
+    rls = fg.RLS(N, rule="subspace", dtype=dtype, monitor=True, **{word: make(name)})
+    check_both_ways(rls, None, dtype)
+
+
+@pytest.mark.parametrize("dtype", DTYPES)
+def test_made_in_c(dtype: str) -> None:
+    """The same settings in C and in Python are the same estimator."""
+    phi, y = samples(dtype, 2, 100)
+    settings = Settings(parameters=N, initial_covariance=50.0, forgetting_factor=0.97, monitor=1)
+    settings.rule = Choice.of("subspace", {"threshold": 0.125})
+    settings.gate = Choice.of("dead_zone", {"width": 0.25, "otherwise": "freeze"})
+    settings.weighting = Choice.of("huber", {})
+    made = Estimator(LIBRARY, None, dtype, N).init(settings)
+    made.update(phi, y)
+    rls = fg.RLS(
+        N,
+        rule=fg.rule("subspace", threshold=0.125),
+        forgetting_factor=0.97,
+        gate=fg.gate("dead_zone", width=0.25, otherwise="freeze"),
+        weighting="huber",
+        initial_covariance=50.0,
+        monitor=True,
+        dtype=dtype,
+    )
+    for k in range(100):
+        rls.update(phi[k], y[k])
+    assert made.to_bytes() == rls.to_bytes()
+
+
+@pytest.mark.parametrize("dtype", DTYPES)
+def test_defaults(dtype: str) -> None:
+    """Settings of zeros are what Python makes when nothing is said."""
+    made = Estimator(LIBRARY, None, dtype, N).init(Settings(parameters=N))
+    assert made.to_bytes() == fg.RLS(N, dtype=dtype).to_bytes()
+    given = Settings(parameters=N, initial_covariance=10.0)
+    made = Estimator(LIBRARY, None, dtype, N).init(given)
+    assert made.to_bytes() == fg.RLS(N, dtype=dtype, initial_covariance=10.0).to_bytes()
+
+
+def test_refused() -> None:
+    """A state of another size, rule or number type is refused."""
+    state = fg.RLS(N, rule="subspace", initial_covariance=1.0, dtype="float32").to_bytes()
+    Estimator(LIBRARY, "subspace", "float32", N).load(state)
+    for rule, dtype, n in (
+        ("subspace", "float64", N),
+        ("subspace", "float32", N + 1),
+        ("directional", "float32", N),
+        (None, "float64", N),
+    ):
+        with pytest.raises(AssertionError):
+            Estimator(LIBRARY, rule, dtype, n).load(state)
+    followed = fg.RLS(N, rule="subspace", dtype="float32").to_bytes()
+    with pytest.raises(AssertionError):
+        Estimator(LIBRARY, "subspace", "float32", N).load(followed)

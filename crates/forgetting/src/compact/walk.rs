@@ -1,0 +1,68 @@
+//! The rule [`random_walk`](crate::rules::random_walk) where every parameter walks alike: two numbers in
+//! the place of a matrix and its root.
+
+use crate::choice::{Value, Values};
+use crate::error::Error;
+use crate::memory::Memory;
+use crate::rules::cycle;
+use crate::rules::random_walk::{BOUND, PROCESS_NOISE, SCHEDULE};
+use crate::rules::{Forgetting, Forgotten, Step};
+use forgetting_kernels::kernel::form::Form;
+use forgetting_kernels::Real;
+
+/// Adds the same variance to every parameter at each sample, with a bound or without; for
+/// [`Compact`](super::Compact).
+#[derive(Clone, Copy, Debug)]
+pub struct Walk<M: Memory> {
+    process_noise: M::Real,
+    bound: Option<M::Real>,
+}
+
+impl<M: Memory> Forgetting<M> for Walk<M> {
+    type State = ();
+
+    fn configure(values: &dyn Values, _: M) -> Result<Self, Error> {
+        let process_noise: M::Real = PROCESS_NOISE.number(values)?;
+        if cycle::is_cyclic(&SCHEDULE, values)? {
+            let reason = "a compact estimator adds its process noise at every sample";
+            return Err(Error::Unsupported { reason });
+        }
+        let bound: Option<M::Real> = match values.get(BOUND.name) {
+            None => None,
+            Some(_) => Some(BOUND.number(values)?),
+        };
+        match bound {
+            Some(bound) if !(bound > process_noise && bound <= M::Real::CEILING) => {
+                let allowed = "above process_noise, within the number type's range";
+                Err(Error::value(BOUND.name, bound.to_f64(), allowed))
+            }
+            bound => Ok(Self { process_noise, bound }),
+        }
+    }
+
+    fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>)) {
+        each(PROCESS_NOISE.name, Value::Real(self.process_noise.to_f64()));
+        if let Some(bound) = self.bound {
+            each(BOUND.name, Value::Real(bound.to_f64()));
+        }
+        each(SCHEDULE.name, cycle::word(false));
+    }
+
+    fn start(&self, _: M) {}
+
+    fn is_bounded(&self) -> bool {
+        self.bound.is_some()
+    }
+
+    #[inline]
+    fn form(&self, _: M::Real, elapsed: M::Real) -> Option<Form<M::Real>> {
+        let noise = self.process_noise;
+        let walks = noise >= M::Real::FLOOR || (noise > M::Real::ZERO && self.bound.is_none());
+        let per_bound = self.bound.map_or(M::Real::ZERO, |bound| M::Real::ONE / bound);
+        (walks && elapsed == M::Real::ONE).then_some(Form::Walk { noise, per_bound })
+    }
+
+    fn forget(&self, (): &mut (), _: Step<'_, '_, M>) -> Result<Forgotten, Error> {
+        Err(Error::Unsupported { reason: "this rule is for compact estimators" })
+    }
+}
