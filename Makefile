@@ -6,7 +6,9 @@
 #                libopenblas0-pthread; without them the report says what is missing
 #   make accuracy   one-step errors beside peers and the best that could have been chosen in hindsight, on the
 #                records of the demo; RECORDS=folder for other ones, .csv or .parquet
-#   make docs    the documentation, warnings as errors
+#   make docs    the documentation, warnings as errors; with the playground, where it is built
+#   make web     the JavaScript module and the playground, tested in Chromium; installs what it needs with
+#                Debian's apt-get, or says what is missing
 #   make fuzz    random input for FUZZ_SECONDS a target (an hour), new seeds each time: estimators, saved
 #                states, text files, formulas, clocks, tables of fleets
 #   make soak    a billion samples through every rule of O(n^2), the default and the bank, in hours; goes on
@@ -29,7 +31,7 @@ FUZZ_SECONDS ?= 3600
 SOAK_STEPS ?= 1000000000
 SOAK_FOLDER ?= $(CURDIR)/build/soak
 
-.PHONY: accuracy fuzz soak demo test lint rust python build bench bench-full docs stubs clean
+.PHONY: accuracy fuzz soak demo test lint rust python build bench bench-full docs web stubs clean
 
 demo: $(VENV)/records
 	$(DEVELOP) --profile $(PROFILE) --extras cli
@@ -46,7 +48,7 @@ lint: build
 	$(BIN)/mypy
 
 rust:
-	cargo test --workspace --exclude forgetting-py --profile $(PROFILE) --quiet
+	cargo test --workspace --exclude forgetting-py --exclude forgetting-wasm --profile $(PROFILE) --quiet
 
 python: build
 	$(WITH_RECORDS) $(BIN)/pytest -n auto
@@ -82,6 +84,11 @@ stubs: build
 docs: build
 	$(PIP) install sphinx myst-parser sphinx-gallery furo
 	$(WITH_RECORDS) $(BIN)/sphinx-build -W -b html docs docs/_build
+
+web: build
+	tools/web.sh build
+	$(PIP) install playwright
+	FORGETTING_WEB=1 $(WITH_RECORDS) $(BIN)/pytest tests/web
 
 # what pip cannot install, the report names
 PEERS = sed -e 's/ *\#.*//' -e '/^$$/d' $(1) | while read peer; do \

@@ -26,7 +26,14 @@ extensions = [
     "sphinx.ext.napoleon",
     "sphinx_gallery.gen_gallery",
 ]
-exclude_patterns = ["_build", "**.ipynb", "tutorials/*", "figures/*", "README.md"]
+exclude_patterns = [
+    "_build",
+    "**.ipynb",
+    "tutorials/*",
+    "figures/*",
+    "README.md",
+    "**/node_modules",
+]
 suppress_warnings = [
     "config.cache",  # sphinx-gallery keeps objects in its configuration
     "ref.python",  # words such as "rows" in the shapes of docstrings are no references
@@ -36,6 +43,8 @@ html_theme = "furo"
 html_title = "forgetting"
 html_static_path = ["_static"]
 html_css_files = ["pages.css"]
+PLAYGROUND = HERE.parent / "build" / "web" / "playground.html"  # where `make web` has built it
+html_extra_path = [str(PLAYGROUND)] if PLAYGROUND.exists() else []
 html_copy_source = False
 html_show_sphinx = False
 pygments_style = "friendly"
@@ -80,4 +89,6 @@ def unmark(app, what, name, obj, options, lines):
 
 
 def setup(app):
+    if PLAYGROUND.exists():
+        app.tags.add("playground")
     app.connect("autodoc-process-docstring", unmark, priority=400)  # before napoleon

@@ -22,7 +22,8 @@ pub struct Chain<A, const N: usize> {
 impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
     /// D after the measurement of a regressor with w = Uᵀf, and what goes with it; the changes of U
     /// are then (−`w` k)·`inverse`.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
+    #[cfg_attr(target_arch = "wasm32", inline(never))]
     pub fn chain<T: Real, const NEAR: bool>(&mut self, w: &mut [A; N]) -> Chain<A, N>
     where
         A: Lane<T>,

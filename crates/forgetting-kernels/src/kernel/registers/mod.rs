@@ -38,7 +38,8 @@ pub struct Gain<A, const N: usize> {
 
 impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
     /// P ← `growth`·P, then P⁻¹ ← P⁻¹ + fᵀf. `NEAR` is false if [`floor::far_before`] is known.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
+    #[cfg_attr(target_arch = "wasm32", inline(never))]
     pub fn scale_and_measure<T: Real, const NEAR: bool>(
         &mut self,
         growth: A,
@@ -163,7 +164,8 @@ impl<A: Copy, const N: usize> Small<A, N> {
 }
 
 /// Uᵀf, in two sums of which neither waits for the other.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
+#[cfg_attr(target_arch = "wasm32", inline(never))]
 fn transposed<T, A, U, const N: usize>(u: &U, f: &[A; N]) -> [A; N]
 where
     T: Real,
