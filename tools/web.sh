@@ -4,44 +4,57 @@
 #   tools/web.sh tools    whether the tools are here or can be had; installs them with apt-get as root
 #   tools/web.sh build    build/web/module (the package for npm) and build/web/playground.html
 #
-# The module is compiled for wasm32 by the Rust toolchain in use, if it has that target (rustup target add
-# wasm32-unknown-unknown), else by Debian's rustc-web, with a standard library that is compiled on the way.
+# The module is compiled for wasm32 with a standard library that is compiled on the way: by the Rust toolchain in
+# use, if it has the source of one (rustup component add rust-src), else by Debian's rustc-web.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 TARGET=wasm32-unknown-unknown
 OUT=build/web
 MODULE=$OUT/module
+FEATURES="--enable-bulk-memory --enable-bulk-memory-opt --enable-sign-ext --enable-nontrapping-float-to-int --enable-mutable-globals --enable-reference-types --enable-multivalue --enable-simd --enable-call-indirect-overlong" # what the compiler uses
 MOST=150000 # bytes of the module, compressed
 
 has() { command -v "$1" >/dev/null; }
-has_target() { [ -d "$(rustc --print sysroot)/lib/rustlib/$TARGET/lib" ]; }
+has_source() { [ -f "$(rustc --print sysroot)/lib/rustlib/src/rust/library/Cargo.lock" ] && has_linker; }
+has_linker() { [ -x "$(rustc --print sysroot)/lib/rustlib/$(rustc -vV | sed -n 's/^host: //p')/bin/rust-lld" ]; }
 has_debian() { [ -x /usr/bin/rustc ] && [ -x /usr/bin/cargo ] && [ -d /usr/lib/rustlib/src/rust/library ] && rust-lld -flavor wasm --version >/dev/null 2>&1; }
+
+# the linker that rust-web-llvm has a link to
+linker() { apt-cache show rust-web-llvm | sed -n 's/^Depends:.*\bllvm-\([0-9]*\).*/lld-\1/p' | head -n 1; }
 
 wanted() {
   has chromium || echo chromium
   has node || echo nodejs
   has npm || echo npm
-  has_target || has_debian || echo rustc-web cargo-web rust-web-src rust-web-llvm
+  has_source || has_debian || echo rustc-web cargo-web rust-web-src rust-web-llvm "$(linker)"
 }
 
 install() {
   local packages
-  packages=$(wanted)
+  packages=$(wanted 2>/dev/null)
   [ -n "$packages" ] || return 0
-  has apt-get && [ "$(id -u)" = 0 ] || { echo "web: missing: $packages" >&2; return 1; }
-  apt-get update -q >/dev/null && DEBIAN_FRONTEND=noninteractive apt-get install -y -q $packages >/dev/null || {
-    echo "web: cannot be had: $packages" >&2
+  if ! has apt-get || [ "$(id -u)" != 0 ]; then
+    echo "web: missing:" $packages >&2
+    return 1
+  fi
+  apt-get update -q >/dev/null || true
+  packages=$(wanted)
+  DEBIAN_FRONTEND=noninteractive apt-get install -y -q $packages >/dev/null || {
+    echo "web: cannot be had:" $packages >&2
     return 1
   }
 }
 
 compile() {
   local arguments=(build --quiet --locked --profile web --package forgetting-wasm --target $TARGET --target-dir target/web)
-  if has_target; then
+  # a panic ends the module without a word: its words would be a tenth of it
+  export RUSTC_BOOTSTRAP=1 RUSTFLAGS="-Zunstable-options -Cpanic=immediate-abort -Zlocation-detail=none"
+  arguments+=(-Zbuild-std=std,panic_abort -Zbuild-std-features=optimize_for_size)
+  if has_source; then
     cargo "${arguments[@]}"
   else
-    RUSTC=/usr/bin/rustc RUSTC_BOOTSTRAP=1 /usr/bin/cargo "${arguments[@]}" -Z build-std=std,panic_abort
+    RUSTC=/usr/bin/rustc /usr/bin/cargo "${arguments[@]}"
   fi
 }
 
@@ -57,8 +70,7 @@ module() {
   cargo build --quiet --locked --release --manifest-path tools/bindgen/Cargo.toml --target-dir target/bindgen
   rm -rf "$MODULE.new"
   target/bindgen/release/bindgen target/web/$TARGET/web/forgetting_wasm.wasm "$MODULE.new"
-  docs/playground/node_modules/.bin/wasm-opt -Oz --all-features --disable-gc --disable-custom-descriptors --disable-strings \
-    "$MODULE.new/forgetting_bg.wasm" -o "$MODULE.new/forgetting_bg.wasm"
+  docs/playground/node_modules/.bin/wasm-opt -Oz $FEATURES "$MODULE.new/forgetting_bg.wasm" -o "$MODULE.new/forgetting_bg.wasm"
   cp LICENSE-MIT LICENSE-APACHE crates/forgetting-wasm/README.md "$MODULE.new"
   python3 tools/npm_package.py "$MODULE.new"
   rm -rf "$MODULE" && mv "$MODULE.new" "$MODULE"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -60,9 +61,12 @@ class Playground:
         self.page.set_input_files("#file", path)
         self.wait()
 
-    def wait(self) -> None:
-        """Until something is found or refused."""
-        self.page.wait_for_function("playground.found || playground.error")
+    def wait(self, condition: str = "playground.found || playground.error") -> None:
+        """Until this holds; asked from here, as the page allows no text to be run as code."""
+        deadline = time.monotonic() + 30
+        while not self.ask(f"Boolean({condition})"):
+            assert time.monotonic() < deadline, condition
+            self.page.wait_for_timeout(20)
 
     def ask(self, expression: str) -> Any:
         """The value of an expression in the page."""

@@ -59,7 +59,7 @@ def test_the_registries_are_those_of_python(tmp_path):
         expected = getattr(fg, axis["plural"])()
         assert [entry["name"] for entry in axis["entries"]] == [each["name"] for each in expected]
         for entry, known in zip(axis["entries"], expected, strict=True):
-            assert entry["header"] == known["header"] and entry["summary"] == known["summary"]
+            assert entry["summary"] == known["summary"]
             for mine, theirs in zip(entry["parameters"], known["parameters"], strict=True):
                 assert mine["name"] == theirs["name"] and mine["range"] == theirs["range"]
                 assert mine["required"] == theirs["required"]

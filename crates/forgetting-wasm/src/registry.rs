@@ -9,7 +9,7 @@ use js_sys::{Array, Object};
 use wasm_bindgen::prelude::*;
 
 /// The choices that make an estimator (rules, rates, weightings, gates, mixers): of each axis its
-/// name, what it is, and its entries with their documentation and their parameters.
+/// name, what it is, and its entries with what each does and its parameters.
 #[wasm_bindgen(unchecked_return_type = "Axis[]")]
 pub fn axes() -> Array {
     AXES.iter().map(axis).collect()
@@ -54,7 +54,6 @@ fn entry(about: &About) -> JsValue {
     let entry = object([
         ("name", about.name.into()),
         ("summary", about.summary().into()),
-        ("header", about.header().collect::<Vec<_>>().join("\n").into()),
         ("parameters", about.parameters.iter().map(parameter).collect::<Array>().into()),
     ]);
     if let Some(guarantees) = about.guarantees {

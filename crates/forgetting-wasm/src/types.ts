@@ -183,9 +183,8 @@ export interface Parameter {
 /** An entry of a registry. */
 export interface Entry {
   name: string;
+  /** What it does, in a sentence. */
   summary: string;
-  /** The documentation. */
-  header: string;
   parameters: Parameter[];
   /** Of a rule: whether it takes a forgetting factor, and its cost. */
   forgetting_factor?: boolean;

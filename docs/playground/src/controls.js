@@ -37,4 +37,4 @@ function place(made, group) {
 
 /** The slider's place for a factor: equal steps multiply the memory 1/(1 − λ) by the same. */
 export const toSlider = (factor) => (factor >= 1 ? 1000 : Math.round((-Math.log10(1 - factor) / 5) * 999));
-export const fromSlider = (place) => (place >= 1000 ? 1 : Number((1 - 10 ** ((-5 * place) / 999)).toPrecision(6)));
+export const fromSlider = (place) => (place >= 1000 ? 1 : Number((1 - 10 ** ((-5 * place) / 999)).toPrecision(5)));

@@ -23,7 +23,7 @@ export function identify(samples, rule) {
     const initial = diagonal(estimator.covariance, n);
     const trace = run(estimator, here, rule === "auto");
     const units = estimator.units || new Float64Array(n).fill(1);
-    const found = { samples, here, rule, trace, n };
+    const found = { samples, here, rule, trace, n, isBank: rule === "auto" };
     found.initialVariance = initial.map((value, i) => value / (units[i] * units[i]));
     found.health = rule === "auto" ? undefined : estimator.health();
     found.used = trace.skipped.map((code) => (code === 0 ? 1 : 0));
@@ -132,6 +132,11 @@ function back(found, origin) {
   found.standardError = Float64Array.from(trace.variance, (value, place) =>
     Math.sqrt(value * found.noise[Math.floor(place / n)]),
   );
+  // P of members that do not count swells the leverage of a bank: its errors alone say how large they are
+  const leverage = found.isBank ? new Float64Array(trace.leverage.length) : trace.leverage;
+  const noise = found.isBank ? runningNoise({ error: trace.error, leverage }, n, found.used) : found.noise;
+  found.deviation = (k) => (k ? Math.sqrt(noise[k - 1] * (1 + leverage[k])) : NaN);
+  found.spread = leverage.map((s) => Math.sqrt(1 + s));
   found.prediction = found.samples.y.map((value, k) => value - trace.error[k]);
 }
 

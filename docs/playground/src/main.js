@@ -57,7 +57,14 @@ async function openFile(file) {
 }
 
 const EXAMPLES = {
-  battery: () => open(read(battery), "battery cell under load", { output: "V", inputs: ["I"], kind: "linear", constant: true }),
+  battery: () =>
+    open(read(battery), "battery cell under load, whose resistance (minus the parameter of I(k)) grows", {
+      output: "V",
+      inputs: ["I"],
+      kind: "arx",
+      constant: true,
+      orders: { na: 1, nb: 2, nk: 0 },
+    }),
   plant: () =>
     open(plantTable(), "simulated plant whose gain falls", {
       output: "y",

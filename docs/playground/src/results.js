@@ -4,6 +4,9 @@ import { byId, element } from "./controls.js";
 import { brief } from "./finding.js";
 
 const DRAWN = 12; // parameters that have a chart
+const BANK =
+  "P of a bank holds what members disagree about that hardly count: it makes no band. Choose a rule to see one; " +
+  "the command estimates one for the bank, too.";
 
 export function show(found, judgement) {
   byId("results").hidden = false;
@@ -47,14 +50,14 @@ function facts(found) {
   );
 }
 
-function signals({ samples, prediction, trace, outputName, noise }) {
+function signals({ samples, prediction, trace, outputName, deviation }) {
   const known = (value) => (Number.isFinite(value) ? value : null);
   const at = thin(samples.y.length);
   const rows = at.map((k) => k + 1);
   byId("signal-title").textContent = `${outputName}: measured and predicted one step ahead`;
   const series = [line("faint", 1), line("blue")];
   chart(byId("signal"), [rows, at.map((k) => known(samples.y[k])), at.map((k) => known(prediction[k]))], series);
-  const spread = at.map((k) => known(2 * Math.sqrt(noise[k] * (1 + trace.leverage[k]))));
+  const spread = at.map((k) => known(2 * deviation(k)));
   const errors = at.map((k) => known(trace.error[k]));
   const less = spread.map((value) => (value === null ? null : -value));
   chart(byId("error"), [rows, errors, less, spread], [line("vermillion", 1), line("faint", 1), line("faint", 1)], {
@@ -68,19 +71,22 @@ function around(errors, spread) {
   return end > 0 ? [-1.2 * end, 1.2 * end] : [-1, 1];
 }
 
-function parameters({ samples, trace, standardError, theta, n }) {
+function parameters({ samples, trace, standardError, theta, n, isBank }) {
   const rows = Array.from({ length: samples.y.length }, (_, k) => k + 1);
   const more = samples.names.length - DRAWN;
-  byId("more").textContent = more > 0 ? `the first ${DRAWN} of ${samples.names.length} are drawn` : "";
+  const drawn = more > 0 ? `the first ${DRAWN} of ${samples.names.length} are drawn` : "";
+  byId("more").textContent = isBank ? `${BANK} ${drawn}` : drawn;
+  byId("parameters-title").textContent = isBank ? "Parameters" : "Parameters, with two standard errors";
   const cards = samples.names.slice(0, DRAWN).map((name, i) => {
     const error = standardError[standardError.length - n + i];
-    const value = element("p", { class: "value" }, digits(theta[i]), element("span", {}, ` ± ${brief(error)}`));
+    const after = isBank ? "" : ` ± ${brief(error)}`;
+    const value = element("p", { class: "value" }, digits(theta[i]), element("span", {}, after));
     const spot = element("div", { class: "chart" });
     return { spot, card: element("div", { class: "card" }, element("h3", {}, name), value, spot) };
   });
   byId("parameters").replaceChildren(...cards.map((each) => each.card));
   cards.forEach(({ spot }, i) =>
-    banded(spot, rows, (k) => trace.theta[k * n + i], (k) => standardError[k * n + i]),
+    banded(spot, rows, (k) => trace.theta[k * n + i], (k) => (isBank ? 0 : standardError[k * n + i])),
   );
 }
 

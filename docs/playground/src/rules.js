@@ -2,7 +2,7 @@
 import { axes } from "forgetting";
 import { byId, element, fromSlider, labelled, select, toSlider } from "./controls.js";
 
-const DEFAULT_FACTOR = 0.99;
+const DEFAULT_FACTOR = 0.98;
 
 /** The rules that need nothing but numbers and words. */
 export const rules = () =>
@@ -14,7 +14,7 @@ export const rules = () =>
 export function ruleForm(changed) {
   const entries = rules();
   const words = { value: "auto", words: "auto: mixes rules of all speeds" };
-  const list = select([words, ...entries.map((entry) => ({ value: entry.name }))], "auto");
+  const list = select([words, ...entries.map((entry) => ({ value: entry.name }))], "subspace");
   byId("rule").append(labelled("Rule", list));
   const own = () => entries.find((entry) => entry.name === list.value);
   const factor = factorForm(changed);

@@ -1,7 +1,7 @@
 // What speaks for and against an estimate: the findings of the package's judge that need no more than the
 // run itself, with its limits and its words.
 import { brief, finding, listing, percent } from "./finding.js";
-import { memoryOf, runningNoise } from "./noise.js";
+import { memoryOf } from "./noise.js";
 import { ownPast, whiteness } from "./whiteness.js";
 
 const RANK = { wrong: 0, warning: 1, good: 2 };
@@ -135,13 +135,9 @@ function ofOutput(found) {
   if (!(model > ROUNDING * Math.min(lastValue, mean))) {
     return [beside, finding("residuals", "good", `The one-step errors of ${of} are negligible.`)];
   }
-  const isBank = Boolean(found.trace.memory);
-  // P of members that do not count swells the leverage of a bank
-  const leverage = isBank ? new Float64Array(found.trace.leverage.length) : found.trace.leverage;
-  const spread = leverage.map((s) => Math.sqrt(1 + s));
-  const noise = isBank ? runningNoise({ error: found.trace.error, leverage }, found.n, found.used) : found.noise;
+  const { spread } = found;
   const error = found.trace.error.map((e, k) => (found.settled[k] ? e : NaN));
-  const predicted = spread.map((s, k) => (k ? s * Math.sqrt(noise[k - 1]) : NaN));
+  const predicted = spread.map((_, k) => found.deviation(k));
   const lags = found.samples.past.length;
   const past = ownPast(error.map((e, k) => e / spread[k]), lags);
   return [beside, intervals(error, predicted, of), whiteness(past, of, lags)];

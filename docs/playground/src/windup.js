@@ -6,6 +6,7 @@ import { rules } from "./rules.js";
 
 const KEPT = 600; // samples on the charts
 const EACH = 3; // samples a frame
+const FACTOR = 0.95;
 const NOISE = 0.1;
 const LEAK = 1e-3; // what is left of the input when it is off
 const COLOURS = ["vermillion", "blue", "orange"];
@@ -86,7 +87,7 @@ export class Story {
   constructor() {
     const words = [{ value: "auto", words: "the bank" }, ...rules().map((entry) => ({ value: entry.name }))];
     this.others = [select(words, "subspace"), select(words, "random_walk")];
-    this.factor = element("input", { type: "range", min: "200", max: "800", value: String(toSlider(0.97)), id: "story-factor" });
+    this.factor = element("input", { type: "range", min: "200", max: "800", value: String(toSlider(FACTOR)), id: "story-factor" });
     this.isOn = true;
     this.isRunning = false;
     this.build();
@@ -94,7 +95,7 @@ export class Story {
   }
 
   build() {
-    const told = element("output", {}, "0.97");
+    const told = element("output", {}, String(FACTOR));
     byId("story-controls").append(
       labelled("Beside exponential", this.others[0]),
       labelled("and", this.others[1]),
@@ -102,16 +103,20 @@ export class Story {
       told,
     );
     this.others.forEach((each) => each.addEventListener("change", () => this.start()));
-    this.factor.addEventListener("input", () => ((told.textContent = fromSlider(Number(this.factor.value))), this.start()));
+    this.factor.addEventListener("input", () => ((told.textContent = this.factorNow()), this.start()));
     byId("switch").addEventListener("click", () => this.turn(!this.isOn));
     byId("run").addEventListener("click", () => this.go(!this.isRunning));
     byId("again").addEventListener("click", () => this.start());
   }
 
+  factorNow() {
+    return fromSlider(Number(this.factor.value));
+  }
+
   start() {
     this.runners?.forEach((each) => each.free());
     this.plant = new Plant(1);
-    const factor = fromSlider(Number(this.factor.value));
+    const factor = this.factorNow();
     const names = ["exponential", ...this.others.map((each) => each.value)];
     this.runners = names.map((name) => new Runner(name, factor));
     Object.assign(this, { rows: [], truth: [], silent: [] });

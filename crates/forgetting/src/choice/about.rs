@@ -3,6 +3,7 @@
 use super::guarantee::Guarantees;
 use super::Parameter;
 use crate::error::Error;
+use forgetting_kernels::kernel::layout::COMPACT;
 
 /// One line of a registry: what a choice is called, takes and guarantees.
 #[derive(Clone, Copy, Debug)]
@@ -93,7 +94,8 @@ impl Axis {
     }
 }
 
-/// How long the comment (`//!`) is that a file begins with.
+/// How long the comment (`//!`) is that a file begins with; where programs are to be small, its first
+/// paragraph.
 pub(crate) const fn header_length(file: &str) -> usize {
     let (text, mut end) = (file.as_bytes(), 0);
     while end + 3 <= text.len()
@@ -101,8 +103,12 @@ pub(crate) const fn header_length(file: &str) -> usize {
         && text[end + 1] == b'/'
         && text[end + 2] == b'!'
     {
+        let start = end;
         while end < text.len() && text[end] != b'\n' {
             end += 1;
+        }
+        if COMPACT && end == start + 3 {
+            return start;
         }
         if end < text.len() {
             end += 1;
