@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import base64
+import functools
 import json
 import re
 import subprocess
+import threading
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
 
 import numpy as np
@@ -69,7 +72,11 @@ def test_the_registries_are_those_of_python(tmp_path):
 def test_a_state_goes_from_python_to_javascript_and_back(kind, tmp_path):
     random = np.random.default_rng(1)
     phi, y = random.normal(size=(40, 3)), random.normal(size=40)
-    estimator = fg.Bank(3) if kind == "Bank" else fg.RLS(3, rule=fg.EFRA(0.97), monitor=True)
+    estimator = (
+        fg.Bank(3)
+        if kind == "Bank"
+        else fg.RLS(3, rule=fg.rule("efra", forgetting_factor=0.97), monitor=True)
+    )
     estimator.run(phi, y)
     state = base64.b64encode(estimator.to_bytes()).decode()
     script = f"""
@@ -86,7 +93,7 @@ def test_a_state_goes_from_python_to_javascript_and_back(kind, tmp_path):
 REFUSED = {
     "new fg.RLS(0)": ("InvalidInput", "parameters = 0"),
     "new fg.RLS(2.5)": ("InvalidInput", "parameters = 2.5, allowed: a whole number"),
-    "new fg.RLS()": ("InvalidInput", "parameters = undefined"),
+    "new fg.RLS()": ("InvalidInput", "parameters = NaN"),
     "new fg.RLS(2, { rule: 'nonsense' })": ("InvalidInput", "nonsense"),
     "new fg.RLS(2, { rules: 'efra' })": ("InvalidInput", "settings has no rules; it has: rule"),
     "new fg.RLS(2, { rule: { name: 'efra', speed: 1 } })": ("InvalidInput", "speed"),
@@ -153,6 +160,34 @@ def test_samples_one_by_one_are_those_of_a_record(tmp_path):
     assert description["rule"]["rule"]["name"] == "exponential"
     assert description["rate"]["forgetting_factor"] == 0.9
     assert zeros == [0.0] * 6
+
+
+def test_a_page_imports_it_as_it_is(browser):
+    """`init()` without arguments finds the other file beside the module."""
+    handler = functools.partial(Quiet, directory=MODULE)
+    with ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        page = browser.new_page()
+        page.goto(f"http://127.0.0.1:{server.server_port}/package.json")
+        theta = page.evaluate(
+            """async () => {
+                const { default: init, RLS } = await import("/forgetting.js");
+                await init();
+                const estimator = new RLS(1);
+                estimator.update(2, 4);
+                return estimator.theta[0];
+            }"""
+        )
+        page.close()
+        server.shutdown()
+    assert abs(theta - 2.0) < 1e-3
+
+
+class Quiet(SimpleHTTPRequestHandler):
+    """Serves files without a word."""
+
+    def log_message(self, *_: object) -> None:
+        """Nothing."""
 
 
 TYPED = """

@@ -94,6 +94,10 @@ CASES = {
     "battery, subspace": {"rule": {"name": "subspace", "forgetting_factor": 0.98}},
     "battery, exponential": {"rule": {"name": "exponential", "forgetting_factor": 0.95}},
     "battery, random walk": {"rule": {"name": "random_walk"}},
+    "battery, dynamics": {
+        "rule": {"name": "subspace", "forgetting_factor": 0.98},
+        "arx": (1, 2, 0),
+    },
     "plant, bank": {"rule": "auto", "arx": (2, 2, 1)},
     "plant, efra": {"rule": {"name": "efra", "forgetting_factor": 0.97}, "arx": (1, 1, 1)},
     "plant, never": {"rule": {"name": "none"}, "arx": (1, 1, 1), "offset": False},
@@ -104,13 +108,18 @@ CASES = {
 }
 
 
+BATTERY_DYNAMICS = {"path": str(BATTERY), "output": "V", "input": "I"}
+
+
 @pytest.mark.parametrize("case", CASES)
 def test_the_page_finds_what_python_finds(case, playground, tmp_path):
     settings = dict(CASES[case])
     rule = settings["rule"]
     form: dict[str, Any] = {"output": "y", "inputs": ["u"], "arx": settings.get("arx")}
     given = {"path": str(plant_file(tmp_path / "plant.csv")), "output": "y", "input": "u"}
-    if case.startswith("battery"):
+    if case == "battery, dynamics":
+        form, given = {**form, "output": "V", "inputs": ["I"]}, BATTERY_DYNAMICS
+    elif case.startswith("battery"):
         form = {"output": "V", "inputs": ["I", "T"]}
         given = {"path": str(BATTERY), "formula": "V ~ I + T"}
     playground.open(Path(given["path"]))

@@ -24,6 +24,7 @@ def test_a_file_that_cannot_be_used_is_refused_in_words(case, playground, tmp_pa
     content, words = FAULTS[case]
     path = tmp_path / "wrong.csv"
     path.write_bytes(content)
+    playground.page.select_option("#kind", "linear")
     playground.open(path)
     assert words in playground.page.inner_text("#fault")
     assert not playground.page.is_visible("#results")
@@ -46,6 +47,7 @@ def test_tables_are_read_as_they_are_written(case, playground, tmp_path):
     encoding = {"windows encoding": "cp1252", "UTF-16": "utf-16"}.get(case, "utf-8")
     path = tmp_path / "table.csv"
     path.write_bytes(TABLES[case].encode(encoding))
+    playground.page.select_option("#kind", "linear")
     playground.open(path)
     y = playground.ask("Array.from(playground.found.samples.y)")
     u = playground.ask("Array.from(playground.found.samples.phi).filter((_, place) => place % 2)")
@@ -150,7 +152,8 @@ def test_the_address_can_ask_for_a_rule_or_the_story_alone(browser):
     asked = Playground(browser, asked="#rule=efra&example=plant")
     assert asked.ask("playground.found.rule.name") == "efra"
     asked.page.close()
-    asked = Playground(browser, asked="#only=windup")
+    asked = Playground(browser, asked="#only=windup&rule=data_dependent")
+    assert asked.ask("playground.story.runners.map((each) => each.name)[1]") == "data_dependent"
     assert not asked.page.is_visible("#record") and asked.page.is_visible("#story")
     asked.page.close()
 

@@ -10,11 +10,12 @@ const label = (value) => (value === 0 ? "0" : Number(value.toPrecision(5)).toStr
 
 let shown = new Set();
 
-function axes() {
+function axes(log) {
   const common = { stroke: colour("faint"), grid: { stroke: colour("grid"), width: 1 }, ticks: { show: false } };
   const whole = (u, values) => values.map((value) => (Number.isInteger(value) ? value.toString() : ""));
   const all = (u, values) => values.map((value) => (value === null ? "" : label(value)));
-  return [{ ...common, values: whole, space: 80, size: 26 }, { ...common, size: 68, values: all }];
+  const grid = log ? { show: false } : common.grid; // there would be ten lines a decade
+  return [{ ...common, values: whole, space: 80, size: 26 }, { ...common, grid, size: 68, values: all }];
 }
 
 /**
@@ -29,7 +30,7 @@ export function chart(place, data, series, { bands = [], range, log = false, mar
     width: Math.max(place.clientWidth, 200),
     height: HEIGHT,
     scales: { x: { time: false }, y },
-    axes: axes(),
+    axes: axes(log),
     series: [{}, ...series],
     bands,
     cursor: { drag: { x: true, y: false } },

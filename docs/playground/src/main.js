@@ -51,6 +51,7 @@ async function openFile(file) {
   try {
     open(read(decode(new Uint8Array(await file.arrayBuffer()))), file.name);
   } catch (error) {
+    clearTimeout(waiting); // what was found before is not shown beside it
     Object.assign(page, { found: null, error: `${file.name}: ${error.message}` });
     refuse(new Error(page.error));
   }
@@ -90,12 +91,14 @@ function listen() {
   for (const name of Object.keys(EXAMPLES)) byId(name).addEventListener("click", EXAMPLES[name]);
 }
 
-/** What the address asks for after its #: rule=subspace, example=plant, only=windup. */
+/** What the address asks for after its #: rule=subspace, example=plant, only=windup; the rule is in the story, too. */
 function asked() {
   const wanted = new URLSearchParams(location.hash.slice(1));
-  document.body.className = wanted.get("only") === "windup" ? "only-windup" : "";
+  document.body.classList.toggle("only-windup", wanted.get("only") === "windup");
+  document.body.classList.toggle("framed", window.self !== window.top);
   if (wanted.get("rule")) rule.choose(wanted.get("rule"));
   (EXAMPLES[wanted.get("example")] || EXAMPLES.battery)();
+  page.story = new Story(wanted.get("rule"));
 }
 
 async function begin() {
@@ -105,7 +108,6 @@ async function begin() {
   rule = ruleForm(changed);
   listen();
   asked();
-  page.story = new Story();
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => location.reload());
   document.body.dataset.ready = "yes";
 }

@@ -9,6 +9,7 @@ const EACH = 3; // samples a frame
 const FACTOR = 0.95;
 const NOISE = 0.1;
 const LEAK = 1e-3; // what is left of the input when it is off
+const THRESHOLD = 0.1; // of rules that have one: what carries less than the noise tells nothing
 const COLOURS = ["vermillion", "blue", "orange"];
 
 /** Normal random numbers from a seed: the story is the same each time. */
@@ -42,12 +43,19 @@ export class Plant {
   }
 }
 
+/** The rule of this name with this factor, and with the threshold where it has one. */
+function ruleOf(name, factor) {
+  const entry = rules().find((each) => each.name === name);
+  if (!entry?.forgetting_factor) return { name };
+  const threshold = entry.parameters.some((each) => each.name === "threshold") ? { threshold: THRESHOLD } : {};
+  return { name, forgetting_factor: factor, ...threshold };
+}
+
 /** One rule along the plant. */
 class Runner {
   constructor(name, factor) {
-    this.name = name;
-    const rule = { name };
-    if (rules().find((entry) => entry.name === name)?.forgetting_factor) rule.forgetting_factor = factor;
+    const rule = ruleOf(name, factor);
+    this.name = name === "auto" ? "the bank" : name + (rule.threshold ? `, threshold ${rule.threshold}` : "");
     this.estimator = name === "auto" ? new Bank(2) : new RLS(2, { rule, monitor: true });
     this.estimates = [];
     this.variances = [];
@@ -84,9 +92,10 @@ function push(values, value) {
 
 /** The story and its controls. */
 export class Story {
-  constructor() {
+  constructor(asked) {
     const words = [{ value: "auto", words: "the bank" }, ...rules().map((entry) => ({ value: entry.name }))];
-    this.others = [select(words, "subspace"), select(words, "random_walk")];
+    const first = rules().some((entry) => entry.name === asked) ? asked : "subspace";
+    this.others = [select(words, first), select(words, "random_walk")];
     this.factor = element("input", { type: "range", min: "200", max: "800", value: String(toSlider(FACTOR)), id: "story-factor" });
     this.isOn = true;
     this.isRunning = false;
@@ -182,7 +191,7 @@ export class Story {
       const words = fault ? `ended: ${fault}` : `a = ${estimate.toFixed(2)}, variance in P ${variance.toPrecision(2)}`;
       const spot = element("span", { class: "spot" });
       spot.style.background = colour(COLOURS[i]);
-      return element("li", {}, spot, `${name === "auto" ? "the bank" : name}: ${words}`);
+      return element("li", {}, spot, `${name}: ${words}`);
     });
     byId("story-legend").replaceChildren(...items);
     byId("story-now").textContent = `sample ${this.plant.k}; a is ${this.truth[this.truth.length - 1].toFixed(2)}`;

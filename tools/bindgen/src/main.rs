@@ -22,6 +22,8 @@ fn main() -> ExitCode {
 fn write(input: &str, folder: &str) -> Result<(), Box<dyn std::error::Error>> {
     let mut bindgen = Bindgen::new();
     bindgen.input_path(input).out_name("forgetting").web(true)?.typescript(true);
+    // init() finds the other file beside the module
+    bindgen.omit_default_module_path(false);
     bindgen.remove_producers_section(true).generate(folder)?;
     Ok(())
 }

@@ -60,14 +60,15 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
         // anything but zeros, which would be a call; nothing is read before it is written
         let mut rows =
             Rows { left: [[noise; N]; N], right: [[noise; N]; N], weights: self.d, noise };
-        for m in 0..N {
+        let n = self.u.count();
+        for m in 0..n {
             rows.weights[m] = self.d[m] * shrink;
             for i in 0..m {
                 rows.left[i][m] = self.u.get(m, i);
             }
         }
         if COMPACT {
-            (0..N).rev().for_each(|j| rows.turn_of::<T>(j, self));
+            (0..n).rev().for_each(|j| rows.turn_of::<T>(j, self));
         } else {
             from_the_last!(rows.step::<T>(self));
         }
@@ -92,10 +93,10 @@ impl<A: Copy, const N: usize> Rows<A, N> {
     where
         A: Lane<T>,
     {
-        let Self { left, right, weights, noise } = self;
+        let (Self { left, right, weights, noise }, n) = (self, small.u.count());
         let (mut heavy, mut light) = ([*noise; N], [*noise; N]);
         let mut parts = Parts::of(*noise);
-        for m in j + 1..N {
+        for m in j + 1..n {
             heavy[m] = weights[m] * left[j][m];
             light[m] = *noise * right[j][m];
             parts.add::<T>(m - j, (heavy[m], left[j][m]), (light[m], right[j][m]));
@@ -106,10 +107,10 @@ impl<A: Copy, const N: usize> Rows<A, N> {
         let inverse = A::splat(T::ONE) / d;
         for i in 0..j {
             let mut rest = A::splat(T::ZERO);
-            if j + 1 < N {
+            if j + 1 < n {
                 let mut sum = left[i][j + 1] * heavy[j + 1];
                 let mut of_noise = right[i][j + 1] * light[j + 1];
-                for m in j + 2..N {
+                for m in j + 2..n {
                     sum = left[i][m].mul_add(heavy[m], sum);
                     of_noise = right[i][m].mul_add(light[m], of_noise);
                 }
@@ -120,7 +121,7 @@ impl<A: Copy, const N: usize> Rows<A, N> {
             let less = -u;
             left[i][j] = left_over;
             right[i][j] = less;
-            for m in j + 1..N {
+            for m in j + 1..n {
                 left[i][m] = less.mul_add(left[j][m], left[i][m]);
                 right[i][m] = less.mul_add(right[j][m], right[i][m]);
             }
