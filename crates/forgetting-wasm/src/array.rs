@@ -6,9 +6,12 @@ use forgetting_runtime::{Array, Elements};
 use js_sys::{Float32Array, Float64Array, Int32Array, Uint8Array};
 use wasm_bindgen::{JsCast, JsValue};
 
+/// Numbers, the last dimension next to each other, and their shape.
+pub type Numbers = (Vec<f64>, Vec<usize>);
+
 /// The numbers of `parameter`, rows of nested arrays one after the other, and their shape: () of a
 /// number, else one dimension, or two where arrays are nested.
-pub fn read(parameter: &str, value: &JsValue) -> Result<(Vec<f64>, Vec<usize>), JsValue> {
+pub fn read(parameter: &str, value: &JsValue) -> Result<Numbers, JsValue> {
     if let Some(number) = value.as_f64() {
         return Ok((vec![number], vec![]));
     }
@@ -37,7 +40,7 @@ fn flat(value: &JsValue) -> Option<Vec<f64>> {
 }
 
 /// Rows of equal length.
-fn nested(parameter: &str, rows: &js_sys::Array) -> Result<(Vec<f64>, Vec<usize>), JsValue> {
+fn nested(parameter: &str, rows: &js_sys::Array) -> Result<Numbers, JsValue> {
     let (mut numbers, mut columns) = (Vec::new(), None);
     for row in rows.iter() {
         let (row, shape) = match row.is_object() {
@@ -58,10 +61,7 @@ fn refused(parameter: &str, value: &JsValue) -> JsValue {
 }
 
 /// The same if it is given.
-pub fn read_given(
-    parameter: &str,
-    value: &JsValue,
-) -> Result<Option<(Vec<f64>, Vec<usize>)>, JsValue> {
+pub fn read_given(parameter: &str, value: &JsValue) -> Result<Option<Numbers>, JsValue> {
     match value.is_undefined() || value.is_null() {
         true => Ok(None),
         false => read(parameter, value).map(Some),

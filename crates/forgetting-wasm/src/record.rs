@@ -1,13 +1,11 @@
 //! Samples and records, in and out.
 
-use crate::array::{read, read_given, write};
+use crate::array::{read, read_given, write, Numbers};
 use crate::error::raise;
 use crate::object::{fields, object, set, unknown, word};
 use forgetting_runtime::{Missing, Run, RunOptions, UpdateOptions, View};
 use js_sys::Object;
 use wasm_bindgen::{JsCast, JsValue};
-
-type Numbers = (Vec<f64>, Vec<usize>);
 
 /// n, p and m of an estimator or a bank.
 #[derive(Clone, Copy)]

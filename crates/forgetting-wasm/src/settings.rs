@@ -1,6 +1,6 @@
 //! What an estimator or a bank is made from.
 
-use crate::array::read_given;
+use crate::array::{read_given, Numbers};
 use crate::choice::{read_choice, read_factor, read_rule};
 use crate::error::{invalid, raise};
 use crate::object::{fields, shown, unknown, whole, word};
@@ -14,14 +14,11 @@ const OF_AN_ESTIMATOR: &str = "rule, forgetting_factor, weighting, gate, initial
 const OF_A_BANK: &str =
     "members, mixer, weighting, gate, initial_covariance, initial_theta, rows, targets, dtype";
 
-/// Numbers in their shape.
-type Numbers = Option<(Vec<f64>, Vec<usize>)>;
-
 /// The settings of an estimator and the arrays that they look at.
 pub struct Given {
     settings: Settings<'static>,
-    covariance: Numbers,
-    theta: Numbers,
+    covariance: Option<Numbers>,
+    theta: Option<Numbers>,
 }
 
 impl Given {
@@ -155,7 +152,10 @@ fn yes(parameter: &str, value: &JsValue) -> Result<bool, JsValue> {
     value.as_bool().ok_or_else(shown)
 }
 
-fn view<'a>(parameter: &'static str, numbers: &'a Numbers) -> Result<Option<View<'a>>, JsValue> {
+fn view<'a>(
+    parameter: &'static str,
+    numbers: &'a Option<Numbers>,
+) -> Result<Option<View<'a>>, JsValue> {
     let made = numbers
         .as_ref()
         .map(|(numbers, shape)| View::new(parameter, numbers.as_slice(), shape).map_err(raise));
