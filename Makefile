@@ -6,7 +6,10 @@
 #                libopenblas0-pthread; without them the report says what is missing
 #   make accuracy   one-step errors beside peers and the best that could have been chosen in hindsight, on the
 #                records of the demo; RECORDS=folder for other ones, .csv or .parquet
-#   make docs    the documentation, warnings and dead links as errors, in two minutes
+#   make docs    the documentation, warnings and dead links as errors, in two minutes; with the playground, where
+#                it is built
+#   make web     the JavaScript module and the playground, tested in Chromium; installs what it needs with
+#                Debian's apt-get, or says what is missing
 #   make sdist   the source distribution, built without git and installed into an empty environment;
 #                compiles everything, in some five minutes
 #   make fuzz    random input for FUZZ_SECONDS a target (an hour), new seeds each time: estimators, saved
@@ -35,7 +38,7 @@ FUZZ_SECONDS ?= 3600
 SOAK_STEPS ?= 1000000000
 SOAK_FOLDER ?= $(CURDIR)/build/soak
 
-.PHONY: accuracy c embedded fuzz soak demo test lint rust python build bench bench-full docs sdist stubs clean
+.PHONY: accuracy c embedded fuzz soak demo test lint rust python build bench bench-full docs sdist stubs web clean
 
 demo: $(VENV)/records
 	$(DEVELOP) --profile $(PROFILE) --extras cli
@@ -53,7 +56,7 @@ lint: build
 	$(BIN)/mypy
 
 rust:
-	cargo test --workspace --exclude forgetting-py --profile $(PROFILE) --quiet
+	cargo test --workspace --exclude forgetting-py --exclude forgetting-wasm --profile $(PROFILE) --quiet
 
 python: build
 	$(WITH_RECORDS) $(BIN)/pytest -n auto
@@ -108,6 +111,11 @@ sdist: $(VENV)/maturin
 	$(SDIST)/empty/bin/python -m pip install --disable-pip-version-check -q $(SDIST)/forgetting-*.tar.gz
 	cd $(SDIST) && empty/bin/python -c "import doctest, forgetting; assert not doctest.testmod(forgetting).failed; \
 	    print(forgetting.__version__, forgetting.__file__)"
+
+web: build
+	tools/web.sh build
+	$(PIP) install playwright
+	FORGETTING_WEB=1 $(WITH_RECORDS) $(BIN)/pytest tests/web
 
 # what pip cannot install, the report names
 PEERS = sed -e 's/ *\#.*//' -e '/^$$/d' $(1) | while read peer; do \

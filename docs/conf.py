@@ -26,10 +26,16 @@ extensions = [
     "sphinx.ext.napoleon",
     "sphinx_design",
     "writing.katex",
-    "writing.playground",
     "sphinx_gallery.gen_gallery",
 ]
-exclude_patterns = ["_build", "**.ipynb", "tutorials/*", "figures/*", "playground/**"]
+exclude_patterns = [
+    "_build",
+    "**.ipynb",
+    "tutorials/*",
+    "figures/*",
+    "README.md",
+    "**/node_modules",
+]
 suppress_warnings = [
     "config.cache",  # sphinx-gallery keeps objects in its configuration
     "ref.python",  # words such as "rows" in the shapes of docstrings are no references
@@ -41,6 +47,8 @@ html_static_path = ["_static"]
 html_css_files = ["katex/katex.min.css", "pages.css"]
 html_js_files = ["katex/katex.min.js", "formulas.js"]
 html_math_renderer = "katex"
+PLAYGROUND = HERE.parent / "build" / "web" / "playground.html"  # where `make web` has built it
+html_extra_path = [str(PLAYGROUND)] if PLAYGROUND.exists() else []
 html_copy_source = False
 html_show_sphinx = False
 pygments_style = "friendly"
@@ -85,4 +93,6 @@ def unmark(app, what, name, obj, options, lines):
 
 
 def setup(app):
+    if PLAYGROUND.exists():
+        app.tags.add("playground")
     app.connect("autodoc-process-docstring", unmark, priority=400)  # before napoleon

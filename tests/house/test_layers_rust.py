@@ -72,6 +72,15 @@ LAYERS: dict[str, tuple[str, ...]] = {
         "fleet bank",
         "model",
     ),
+    # what only JavaScript needs
+    "forgetting-wasm": (
+        "error types",
+        "object",
+        "array",
+        "choice",
+        "settings registry record update health",
+        "rls bank",
+    ),
 }
 """Lowest first. A room may import those below it, and itself; rooms of one line are level."""
 

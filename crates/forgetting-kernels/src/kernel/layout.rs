@@ -24,6 +24,12 @@ use crate::number::Real;
 pub const BLOCK: usize = 8;
 /// So many parameters and less are measured in registers, without tiles.
 pub const FEW: usize = 10;
+/// Whether programs are to be small, as those that a browser fetches: samples are then taken one at a time,
+/// estimators one by one, and of the kernels that give the same bits only the one of few instructions is
+/// compiled.
+pub const COMPACT: bool = cfg!(target_arch = "wasm32");
+/// So many parameters and less have kernels with constant bounds, where others would give the same bits.
+pub const UNROLLED: usize = if COMPACT { 0 } else { FEW };
 
 /// How many blocks come before column 8 `block`, counted in tiles of `rows` rows.
 #[inline(always)]

@@ -3,7 +3,7 @@
 
 use super::along::Room;
 use super::bierman::{self, largest};
-use super::layout::FEW;
+use super::layout::{COMPACT, FEW};
 use super::registers::floor::far_before;
 use super::registers::{Gain, InPlace, Small, Unit};
 use super::vectors::add_scaled_by;
@@ -12,7 +12,7 @@ use crate::kernel::form::{shrink, Form};
 use crate::kernel::measured::Measured;
 use crate::number::lane::One;
 use crate::number::vector::{StreamVector, Vector};
-use crate::number::Real;
+use crate::number::{copy_some, Real};
 
 /// The factor and what goes with it.
 pub struct Place<'a, T> {
@@ -84,7 +84,28 @@ fn few<T: Real, V: Vector<T>>(
     f: &[T],
     squares: T,
 ) -> Option<Measured<T>> {
+    if COMPACT {
+        return of_any::<T, V>(place, form, f, squares);
+    }
     with_few!(f.len(), of::<T, V>(place, form, f, squares))
+}
+
+/// One kernel for all of them.
+#[inline(always)]
+fn of_any<T: Real, V: Vector<T>>(
+    Place { columns, diagonal, scratch, bound }: &mut Place<'_, T>,
+    form: Form<T>,
+    f: &[T],
+    squares: T,
+) -> Option<Measured<T>> {
+    let (n, mut padded, mut d) = (f.len(), [T::ZERO; FEW], [T::ONE; FEW]);
+    copy_some(&mut padded, f);
+    copy_some(&mut d, diagonal);
+    let mut small = Small { u: InPlace::of_some(columns, n), d };
+    let (gain, forgot) = gain::<T, V, FEW>(&mut small, bound, form, (&padded, squares))?;
+    diagonal.copy_from_slice(&small.d[..n]);
+    scratch[..n].copy_from_slice(&gain.k[..n]);
+    Some(measured(&gain, forgot))
 }
 
 #[inline(always)]
@@ -95,33 +116,43 @@ fn of<T: Real, V: Vector<T>, const N: usize>(
     squares: T,
 ) -> Option<Measured<T>> {
     let (f, d) = (f.first_chunk::<N>()?, diagonal.first_chunk_mut::<N>()?);
-    let (mut small, least) = (Small { u: InPlace::of::<N>(columns), d: *d }, T::FLOOR);
-    let bounds = &mut Bounds { tight: **bound, kept: bound };
-    let (gain, forgot) = match form {
-        Form::Scale { growth } => {
-            scale::<T, T, _, N, true>(&mut small, bounds, growth, (f, squares), least)?
-        }
-        Form::Along { weight, .. } => {
-            along::<T, T, _, N, true>(&mut small, bounds, weight, (f, squares), least)?
-        }
-        Form::Walk { noise, per_bound } => {
-            let noise = (noise, per_bound);
-            walk::<T, T, V::StreamVector, _, N, true>(
-                &mut small,
-                bounds,
-                noise,
-                (f, squares),
-                least,
-            )?
-        }
-    };
+    let mut small = Small { u: InPlace::of::<N>(columns), d: *d };
+    let (gain, forgot) = gain::<T, V, N>(&mut small, bound, form, (f, squares))?;
     *d = small.d;
     let k = &mut scratch[..N];
     for i in 0..N {
         k[i] = gain.k[i];
     }
-    let Gain { s: leverage, a: variance, inverse_a: inverse_variance, largest, .. } = gain;
-    Some(Measured { leverage, variance, inverse_variance, largest, forgot })
+    Some(measured(&gain, forgot))
+}
+
+/// Forgets in this form and measures.
+#[inline(always)]
+fn gain<T: Real, V: Vector<T>, const N: usize>(
+    small: &mut Small<T, N, InPlace<'_, T>>,
+    bound: &mut T,
+    form: Form<T>,
+    sample: (&[T; N], T),
+) -> Option<(Gain<T, N>, bool)> {
+    let bounds = &mut Bounds { tight: *bound, kept: bound };
+    match form {
+        Form::Scale { growth } => {
+            scale::<T, T, _, N, true>(small, bounds, growth, sample, T::FLOOR)
+        }
+        Form::Along { weight, .. } => {
+            along::<T, T, _, N, true>(small, bounds, weight, sample, T::FLOOR)
+        }
+        Form::Walk { noise, per_bound } => {
+            let noise = (noise, per_bound);
+            walk::<T, T, V::StreamVector, _, N, true>(small, bounds, noise, sample, T::FLOOR)
+        }
+    }
+}
+
+#[inline(always)]
+fn measured<T: Real, const N: usize>(gain: &Gain<T, N>, forgot: bool) -> Measured<T> {
+    let &Gain { s: leverage, a: variance, inverse_a: inverse_variance, largest, .. } = gain;
+    Measured { leverage, variance, inverse_variance, largest, forgot }
 }
 
 /// Scales P and measures f with the squared length `squares` in registers, unless there is no room;
@@ -181,7 +212,7 @@ where
     U: Unit<A, N>,
 {
     let shrink = shrink::<T, T>(noise, per_bound);
-    let added = noise * T::from_f64(N as f64);
+    let added = noise * T::from_f64(small.u.count() as f64);
     bounds.grow::<NEAR>((shrink, added), (least * shrink, squares))?;
     small.walk_by_columns::<T, L>(shrink, noise);
     let gain = small.scale_and_measure::<T, NEAR>(A::splat(T::ONE), f);

@@ -75,6 +75,7 @@ macro_rules! compile_portable {
     ($module:ident, $float:ident) => {
         mod $module {
             use crate::kernel::dispatch::{Dispatch, Kernel};
+            use crate::kernel::layout::COMPACT;
             use crate::number::Real;
 
             struct Unit;
@@ -83,7 +84,13 @@ macro_rules! compile_portable {
                 // a function for each kernel: in one function they would compile for minutes
                 #[inline(never)]
                 fn run<K: Kernel<$float>>(kernel: K) -> K::Output {
-                    kernel.run::<<$float as Real>::Lanes, 2>()
+                    kernel.run::<<$float as Real>::Lanes, {
+                        if COMPACT {
+                            1
+                        } else {
+                            2
+                        }
+                    }>()
                 }
             }
 

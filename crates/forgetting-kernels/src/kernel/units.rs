@@ -1,7 +1,7 @@
 //! Rows in units of their own for each column, and what these units are made from.
 
 use crate::kernel::dispatch::Kernel;
-use crate::kernel::layout::FEW;
+use crate::kernel::layout::UNROLLED;
 use crate::number::lane::Lane;
 use crate::number::vector::Vector;
 use crate::number::Real;
@@ -26,7 +26,7 @@ impl<T: Real> Kernel<T> for ScaleRows<'_, T> {
     fn run<V: Vector<T>, const GROUP: usize>(self) {
         let n = self.factors.len();
         // wide vectors are for many: without this they would be compiled for few, too
-        if GROUP < 8 && n <= FEW {
+        if GROUP < 8 && n <= UNROLLED {
             with_few!(n, scale_few::<T>(self.rows, self.factors));
         } else {
             scale_many::<T, V>(self.rows, self.factors);
@@ -79,7 +79,7 @@ impl<T: Real> Kernel<T> for SumRoots<'_, T> {
     #[inline(always)]
     fn run<V: Vector<T>, const GROUP: usize>(self) {
         let n = self.roots.len();
-        if GROUP < 8 && n <= FEW {
+        if GROUP < 8 && n <= UNROLLED {
             with_few!(n, sum_few::<T>(self.rows, self.roots, self.counts));
         } else {
             sum_many::<T, V>(self.rows, self.roots, self.counts);

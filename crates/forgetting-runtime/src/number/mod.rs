@@ -1,11 +1,14 @@
 //! Number types, and numbers as an interface passes and receives them.
 
 mod array;
+#[cfg_attr(target_arch = "wasm32", path = "only_f64.rs")]
 mod by_type;
 mod real;
 
 pub use array::{Array, Elements, Numbers, View};
-pub(crate) use by_type::{both, each, has_fused, make, map, ByType, Family, Plain};
+pub(crate) use by_type::{both, each, make, map, ByType, Family};
+#[cfg(not(target_arch = "wasm32"))]
+pub(crate) use by_type::{has_fused, Plain};
 pub(crate) use real::Number;
 
 use crate::error::Error;

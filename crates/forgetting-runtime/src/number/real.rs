@@ -1,8 +1,10 @@
 //! How an interface's numbers become those that are computed with.
 
 use super::array::{Array, Elements, Numbers};
+#[cfg(not(target_arch = "wasm32"))]
 use bytemuck::{TransparentWrapper, TransparentWrapperAlloc};
 use forgetting::{Kernels, Real};
+#[cfg(not(target_arch = "wasm32"))]
 use forgetting_cpu::Fused;
 use std::borrow::Cow;
 
@@ -41,6 +43,7 @@ macro_rules! number {
             }
         }
 
+        #[cfg(not(target_arch = "wasm32"))]
         impl Number for Fused<$float> {
             #[inline(always)]
             fn read(numbers: Numbers<'_>) -> Cow<'_, [Self]> {

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use forgetting_kernels::kernel::form::Form;
 use forgetting_kernels::kernel::lanes::storage::{Layout, Line};
 use forgetting_kernels::kernel::lanes::together::{MixThetas, Together};
-use forgetting_kernels::kernel::layout::FEW;
+use forgetting_kernels::kernel::layout::{COMPACT, FEW};
 use forgetting_kernels::kernel::outcome::Outcome;
 use forgetting_kernels::Kernels;
 
@@ -43,6 +43,9 @@ struct Buffers<T: Kernels> {
 impl<T: Kernels> Lanes<T> {
     /// Room for these members, unless they must be updated one by one.
     pub fn of(members: &[AnyEstimator<T>]) -> Option<Self> {
+        if COMPACT {
+            return None;
+        }
         let parameters = members[0].prior().memory().parameters();
         let form = members[0].form()?;
         let alike = |member: &AnyEstimator<T>| {

@@ -3,6 +3,7 @@
 use super::guarantee::Guarantees;
 use super::Parameter;
 use crate::error::Error;
+use forgetting_kernels::kernel::layout::COMPACT;
 
 /// One line of a registry: what a choice is called, takes and guarantees.
 #[derive(Clone, Copy, Debug)]
@@ -11,7 +12,7 @@ pub struct About {
     pub name: &'static str,
     /// the name of the type
     pub type_name: &'static str,
-    /// the text of the file; its header (`//!`) is the documentation
+    /// the header of the file with its comment marks (`//!`): the documentation
     pub source: &'static str,
     /// its own parameters
     pub parameters: &'static [Parameter],
@@ -75,7 +76,7 @@ pub struct Axis {
     pub name: &'static str,
     /// what several are called, which is also the name of the folder
     pub plural: &'static str,
-    /// the text of the folder's `mod.rs`; its header says what the axis is
+    /// the header of the folder's `mod.rs`, which says what the axis is
     pub source: &'static str,
     /// the registry
     pub entries: &'static [About],
@@ -93,10 +94,63 @@ impl Axis {
     }
 }
 
-/// The lines of the comment that a file begins with, without their comment marks.
+/// How long the comment (`//!`) is that a file begins with; where programs are to be small, its first
+/// paragraph.
+pub(crate) const fn header_length(file: &str) -> usize {
+    let (text, mut end) = (file.as_bytes(), 0);
+    while end + 3 <= text.len()
+        && text[end] == b'/'
+        && text[end + 1] == b'/'
+        && text[end + 2] == b'!'
+    {
+        let start = end;
+        while end < text.len() && text[end] != b'\n' {
+            end += 1;
+        }
+        if COMPACT && end == start + 3 {
+            return start;
+        }
+        if end < text.len() {
+            end += 1;
+        }
+    }
+    end
+}
+
+/// The first `LENGTH` bytes of a file.
+pub(crate) const fn copy_of<const LENGTH: usize>(file: &str) -> [u8; LENGTH] {
+    let (mut copy, mut at) = ([0; LENGTH], 0);
+    while at < LENGTH {
+        copy[at] = file.as_bytes()[at];
+        at += 1;
+    }
+    copy
+}
+
+/// The text that these bytes are.
+pub(crate) const fn text_of(bytes: &'static [u8]) -> &'static str {
+    match core::str::from_utf8(bytes) {
+        Ok(text) => text,
+        Err(_) => "",
+    }
+}
+
+/// The lines of a header, without their comment marks.
 fn header(source: &'static str) -> impl Iterator<Item = &'static str> {
-    source
-        .lines()
-        .take_while(|line| line.starts_with("//!"))
-        .map(|line| line.trim_start_matches("//!").strip_prefix(' ').unwrap_or(""))
+    source.lines().map(|line| line.trim_start_matches("//!").strip_prefix(' ').unwrap_or(""))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{copy_of, header_length};
+
+    #[test]
+    fn a_header_ends_where_the_comment_does() {
+        let file = "//! One.\n//!\n//! Two: φ.\n\nuse x;\n//! no";
+        assert_eq!(&file[..header_length(file)], "//! One.\n//!\n//! Two: φ.\n");
+        assert_eq!(header_length("//! All"), 7);
+        assert_eq!(header_length("// none"), 0);
+        assert_eq!(header_length(""), 0);
+        assert_eq!(copy_of::<4>(file), *b"//! ");
+    }
 }

@@ -1,7 +1,7 @@
 //! What a choice is: its name, its parameters with their values, what it guarantees, and the
 //! registry that lists it.
 
-mod about;
+pub(crate) mod about;
 pub(crate) mod bytes;
 #[cfg(feature = "alloc")]
 pub mod function;

@@ -5,6 +5,7 @@ use super::{accepts, LaneOutcome};
 use crate::kernel::dispatch::Kernel;
 use crate::kernel::form::{shrink, Form};
 use crate::kernel::lanes::storage::{Layout, Line};
+use crate::kernel::layout::COMPACT;
 use crate::kernel::registers::Small;
 use crate::kernel::vectors::few_products;
 use crate::number::vector::{StreamVector, Vector};
@@ -48,6 +49,7 @@ impl<T: Real> Kernel<T> for Together<'_, T> {
     #[inline(always)]
     fn run<V: Vector<T>, const GROUP: usize>(mut self) -> usize {
         match self.form {
+            _ if COMPACT => 0,
             Form::Walk { .. } => {
                 with_few!(self.parameters, walks::<T, V>(&mut self))
             }

@@ -31,16 +31,17 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
         A: Lane<T>,
     {
         let (mut z, mut q, mut information) = (*f, *f, A::splat(T::ZERO));
-        for c in (N / 2..N).rev() {
+        let n = self.u.count();
+        for c in (n / 2..n).rev() {
             self.eliminate(c, &mut z);
         }
-        for c in (0..N / 2).rev() {
+        for c in (0..n / 2).rev() {
             self.eliminate(c, &mut z);
         }
-        for c in 0..N {
+        for c in 0..n {
             q[c] = z[c] / self.d[c];
         }
-        for c in (0..N).rev() {
+        for c in (0..n).rev() {
             information = z[c].mul_add(q[c], information);
         }
         Along { z, q, information }
@@ -69,16 +70,16 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
     where
         A: Lane<T>,
     {
-        let (one, zero) = (A::splat(T::ONE), A::splat(T::ZERO));
+        let (one, zero, n) = (A::splat(T::ONE), A::splat(T::ZERO), self.u.count());
         let mut w = transposed(&self.u, f);
         let (mut slope, mut inverse_t, mut p) = ([zero; N], c, zero);
-        for c in (0..N).rev() {
+        for c in (0..n).rev() {
             self.d[c] = (z[c] * inverse_t).mul_add(z[c], self.d[c]);
             t = z[c].mul_add(q[c], t);
             inverse_t = one / t;
             slope[c] = q[c] * inverse_t;
         }
-        for c in 0..N {
+        for c in 0..n {
             let before = w[c];
             w[c] = slope[c].mul_add(p, before);
             p = z[c].mul_add(before, p);
@@ -86,11 +87,11 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
         let chain = self.chain::<T, NEAR>(&mut w);
         self.u.last_pass(&self.d);
         let mut sums = [[zero; N]; 2];
-        for c in 0..N / 2 {
+        for c in 0..n / 2 {
             let measured = (-w[c], chain.inverse[c], chain.v[c]);
             self.widened_and_measured(c, (slope[c], z[c]), measured, &mut sums);
         }
-        for c in N / 2..N {
+        for c in n / 2..n {
             let measured = (-w[c], chain.inverse[c], chain.v[c]);
             self.widened_and_measured(c, (slope[c], z[c]), measured, &mut sums);
         }

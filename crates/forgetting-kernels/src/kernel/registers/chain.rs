@@ -22,7 +22,8 @@ pub struct Chain<A, const N: usize> {
 impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
     /// D after the measurement of a regressor with w = Uᵀf, and what goes with it; the changes of U
     /// are then (−`w` k)·`inverse`.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
+    #[cfg_attr(target_arch = "wasm32", inline(never))]
     pub fn chain<T: Real, const NEAR: bool>(&mut self, w: &mut [A; N]) -> Chain<A, N>
     where
         A: Lane<T>,
@@ -30,8 +31,8 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
         let (one, zero) = (A::splat(T::ONE), A::splat(T::ZERO));
         let (mut v, mut inverse, mut s) = ([zero; N], [one; N], zero);
         let (mut largest, mut least) = (A::splat(T::FLOOR), A::splat(T::CEILING));
-        let (mut a, mut inverse_a) = (one, one);
-        for c in 0..N {
+        let (mut a, mut inverse_a, n) = (one, one, self.u.count());
+        for c in 0..n {
             let d = self.d[c];
             v[c] = d * w[c];
             let next = w[c].mul_add(v[c], a);
@@ -42,13 +43,13 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
             least = least.min(self.d[c]);
             a = next;
         }
-        for c in (0..N).rev() {
+        for c in (0..n).rev() {
             s = w[c].mul_add(v[c], s);
         }
         let mut chain =
             Chain { v, inverse, s, a, inverse_a, largest, shares: [one; N], lifted: false };
         if NEAR && !A::all(floor::far_after(least, a)) {
-            (self.d, *w, chain) = lift(self.d, *w, chain);
+            (self.d, *w, chain) = lift(n, self.d, *w, chain);
         }
         chain
     }
@@ -62,7 +63,7 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
         if !chain.lifted {
             return;
         }
-        for c in 0..N {
+        for c in 0..self.u.count() {
             for i in 0..c {
                 self.u.set(c, i, self.u.get(c, i) * chain.shares[c]);
             }
@@ -75,12 +76,13 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
 /// It takes and returns values, so that they may stay in registers elsewhere.
 #[inline(always)]
 fn lift<T: Real, A: Lane<T>, const N: usize>(
+    n: usize,
     mut d: [A; N],
     mut w: [A; N],
     mut chain: Chain<A, N>,
 ) -> ([A; N], [A; N], Chain<A, N>) {
     let mut inverse_after = chain.inverse_a;
-    for c in (0..N).rev() {
+    for c in (0..n).rev() {
         let inverse = chain.inverse[c];
         let column = floor::Column { d: d[c], w: w[c], v: chain.v[c], inverse };
         let (column, share) = column.lift(inverse_after, chain.a);

@@ -2,6 +2,7 @@
 
 use super::walk::{from_the_last, turn, Parts};
 use super::{Small, Unit};
+use crate::kernel::layout::COMPACT;
 use crate::number::lane::One;
 use crate::number::vector::StreamVector;
 use crate::number::Real;
@@ -28,7 +29,7 @@ impl<O: Copy, const N: usize, U: Unit<O, N>> Small<O, N, U> {
         O: One<T>,
     {
         // a row of four or less has no use for vectors
-        if N <= 4 || A::COUNT * BLOCKS < ROWS {
+        if COMPACT || N <= 4 || A::COUNT * BLOCKS < ROWS {
             return self.walk(O::splat(shrink), O::splat(noise));
         }
         let splat = A::splat(noise);

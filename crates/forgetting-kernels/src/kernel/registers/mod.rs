@@ -38,7 +38,8 @@ pub struct Gain<A, const N: usize> {
 
 impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
     /// P ← `growth`·P, then P⁻¹ ← P⁻¹ + fᵀf. `NEAR` is false if [`floor::far_before`] is known.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
+    #[cfg_attr(target_arch = "wasm32", inline(never))]
     pub fn scale_and_measure<T: Real, const NEAR: bool>(
         &mut self,
         growth: A,
@@ -47,6 +48,7 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
     where
         A: Lane<T>,
     {
+        let n = self.u.count();
         for d in &mut self.d {
             *d = *d * growth;
         }
@@ -55,10 +57,10 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
         self.u.last_pass(&self.d);
         let mut k = [A::splat(T::ZERO); N];
         // two loops, here and below: the compiler does not unroll one over ten columns
-        for c in 0..N / 2 {
+        for c in 0..n / 2 {
             self.measured(c, (-w[c], chain.inverse[c], chain.v[c]), &mut k);
         }
-        for c in N / 2..N {
+        for c in n / 2..n {
             self.measured(c, (-w[c], chain.inverse[c], chain.v[c]), &mut k);
         }
         if NEAR {
@@ -90,7 +92,7 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
     {
         let w = transposed(&self.u, f);
         let mut sum = A::splat(T::ZERO);
-        for c in 0..N {
+        for c in 0..self.u.count() {
             sum = (self.d[c] * w[c]).mul_add(w[c], sum);
         }
         sum
@@ -104,7 +106,7 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
     {
         let (zero, one) = (A::splat(T::ZERO), A::splat(T::ONE));
         let mut trace = zero;
-        for c in 0..N {
+        for c in 0..self.u.count() {
             let mut squares = zero;
             for i in 0..c {
                 let u = self.u.get(c, i);
@@ -163,18 +165,19 @@ impl<A: Copy, const N: usize> Small<A, N> {
 }
 
 /// Uᵀf, in two sums of which neither waits for the other.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
+#[cfg_attr(target_arch = "wasm32", inline(never))]
 fn transposed<T, A, U, const N: usize>(u: &U, f: &[A; N]) -> [A; N]
 where
     T: Real,
     A: Lane<T>,
     U: Unit<A, N>,
 {
-    let mut w = *f;
-    for c in 0..N / 2 {
+    let (mut w, n) = (*f, u.count());
+    for c in 0..n / 2 {
         w[c] = dot(u, c, f);
     }
-    for c in N / 2..N {
+    for c in n / 2..n {
         w[c] = dot(u, c, f);
     }
     w

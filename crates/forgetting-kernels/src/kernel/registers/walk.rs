@@ -20,6 +20,7 @@
 //! Both take the same sums in the same order: what is added to D_j in four parts, that to U_ij in two.
 
 use super::{Small, Unit};
+use crate::kernel::layout::COMPACT;
 use crate::number::lane::Lane;
 use crate::number::Real;
 
@@ -50,7 +51,8 @@ struct Rows<A, const N: usize> {
 
 impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
     /// P ← `shrink`·P + `noise`·I.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
+    #[cfg_attr(target_arch = "wasm32", inline(never))]
     pub fn walk<T: Real>(&mut self, shrink: A, noise: A)
     where
         A: Lane<T>,
@@ -58,57 +60,70 @@ impl<A: Copy, const N: usize, U: Unit<A, N>> Small<A, N, U> {
         // anything but zeros, which would be a call; nothing is read before it is written
         let mut rows =
             Rows { left: [[noise; N]; N], right: [[noise; N]; N], weights: self.d, noise };
-        for m in 0..N {
+        let n = self.u.count();
+        for m in 0..n {
             rows.weights[m] = self.d[m] * shrink;
             for i in 0..m {
                 rows.left[i][m] = self.u.get(m, i);
             }
         }
-        from_the_last!(rows.step::<T>(self));
+        if COMPACT {
+            (0..n).rev().for_each(|j| rows.turn_of::<T>(j, self));
+        } else {
+            from_the_last!(rows.step::<T>(self));
+        }
     }
 }
 
 impl<A: Copy, const N: usize> Rows<A, N> {
-    /// Row J and its part in those before it.
+    /// Row J, a constant, and its part in those before it.
     #[inline(always)]
     fn step<T: Real, const J: usize>(&mut self, small: &mut Small<A, N, impl Unit<A, N>>)
     where
         A: Lane<T>,
     {
-        if J >= N {
-            return;
+        if J < N {
+            self.turn_of::<T>(J, small);
         }
-        let Self { left, right, weights, noise } = self;
+    }
+
+    /// Row j and its part in those before it.
+    #[inline(always)]
+    fn turn_of<T: Real>(&mut self, j: usize, small: &mut Small<A, N, impl Unit<A, N>>)
+    where
+        A: Lane<T>,
+    {
+        let (Self { left, right, weights, noise }, n) = (self, small.u.count());
         let (mut heavy, mut light) = ([*noise; N], [*noise; N]);
         let mut parts = Parts::of(*noise);
-        for m in J + 1..N {
-            heavy[m] = weights[m] * left[J][m];
-            light[m] = *noise * right[J][m];
-            parts.add::<T>(m - J, (heavy[m], left[J][m]), (light[m], right[J][m]));
+        for m in j + 1..n {
+            heavy[m] = weights[m] * left[j][m];
+            light[m] = *noise * right[j][m];
+            parts.add::<T>(m - j, (heavy[m], left[j][m]), (light[m], right[j][m]));
         }
         let added = parts.sum::<T>();
-        let d = weights[J] + added;
-        small.d[J] = d;
+        let d = weights[j] + added;
+        small.d[j] = d;
         let inverse = A::splat(T::ONE) / d;
-        for i in 0..J {
+        for i in 0..j {
             let mut rest = A::splat(T::ZERO);
-            if J + 1 < N {
-                let mut sum = left[i][J + 1] * heavy[J + 1];
-                let mut of_noise = right[i][J + 1] * light[J + 1];
-                for m in J + 2..N {
+            if j + 1 < n {
+                let mut sum = left[i][j + 1] * heavy[j + 1];
+                let mut of_noise = right[i][j + 1] * light[j + 1];
+                for m in j + 2..n {
                     sum = left[i][m].mul_add(heavy[m], sum);
                     of_noise = right[i][m].mul_add(light[m], of_noise);
                 }
                 rest = sum + of_noise;
             }
-            let (u, left_over) = turn(left[i][J], rest, (weights[J], added, inverse));
-            small.u.set(J, i, u);
+            let (u, left_over) = turn(left[i][j], rest, (weights[j], added, inverse));
+            small.u.set(j, i, u);
             let less = -u;
-            left[i][J] = left_over;
-            right[i][J] = less;
-            for m in J + 1..N {
-                left[i][m] = less.mul_add(left[J][m], left[i][m]);
-                right[i][m] = less.mul_add(right[J][m], right[i][m]);
+            left[i][j] = left_over;
+            right[i][j] = less;
+            for m in j + 1..n {
+                left[i][m] = less.mul_add(left[j][m], left[i][m]);
+                right[i][m] = less.mul_add(right[j][m], right[i][m]);
             }
         }
     }

@@ -5,7 +5,7 @@ mod few;
 mod many;
 
 use super::dispatch::Dispatch;
-use super::layout::FEW;
+use super::layout::{COMPACT, FEW};
 use super::measure::Place;
 use super::outcome::Outcome;
 use crate::kernel::form::Form;
@@ -33,10 +33,11 @@ pub struct Steps<'a, T> {
 }
 
 /// Takes the samples until one is to be refused or looked at closely, or P needs more room; returns
-/// how many it took.
+/// how many it took: none where programs are to be small.
 #[inline(always)]
 pub fn advance<T: Real, D: Dispatch<T>>(steps: &mut Steps<'_, T>) -> usize {
     match steps.theta.len() {
+        _ if COMPACT => 0,
         1..=FEW => with_few!(steps.theta.len(), few::<T, D>(steps)),
         _ => D::run(Many(steps)),
     }

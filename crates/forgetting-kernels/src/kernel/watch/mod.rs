@@ -7,7 +7,7 @@ pub use residual::Residual;
 pub use silence::Silence;
 
 use super::dispatch::Kernel;
-use super::layout::FEW;
+use super::layout::UNROLLED;
 use super::outcome::Outcome;
 use super::vectors::{add_scaled_by, dot_of};
 use crate::number::vector::Vector;
@@ -134,7 +134,7 @@ impl<'s, T: Real, S: Observed<'s, T>> Kernel<T> for WatchOf<'_, T, S> {
     fn run<V: Vector<T>, const GROUP: usize>(self) -> usize {
         let n = self.size();
         // wide vectors are for many: without this they would be compiled for few, too
-        if GROUP < 8 && n <= FEW {
+        if GROUP < 8 && n <= UNROLLED {
             with_few!(n, few::<T, V, S>(self)).unwrap_or(0)
         } else {
             self.watch.silence.note::<V, S>(self.samples);

@@ -14,7 +14,8 @@ const NUMBERS: usize = 1 << 18;
 /// When to ask.
 pub(crate) struct Pause<'a> {
     go_on: GoOn<'a>,
-    last: Instant,
+    /// when it was asked last, where there is a clock
+    last: Option<Instant>,
     /// samples between two looks at the clock, and until the next
     every: usize,
     left: usize,
@@ -24,7 +25,7 @@ impl<'a> Pause<'a> {
     /// For samples of so many rows and parameters.
     pub fn new(go_on: GoOn<'a>, rows: usize, parameters: usize) -> Self {
         let every = (NUMBERS / (rows * parameters * parameters).max(1)).max(1);
-        Self { go_on, last: Instant::now(), every, left: every }
+        Self { go_on, last: now(), every, left: every }
     }
 
     /// After so many samples.
@@ -38,10 +39,15 @@ impl<'a> Pause<'a> {
             return Ok(());
         }
         self.left = self.every;
-        if self.last.elapsed() < INTERVAL {
+        if self.last.is_some_and(|last| last.elapsed() < INTERVAL) {
             return Ok(());
         }
-        self.last = Instant::now();
+        self.last = now();
         (self.go_on)()
     }
+}
+
+/// None on WebAssembly, which has no clock.
+fn now() -> Option<Instant> {
+    (!cfg!(target_arch = "wasm32")).then(Instant::now)
 }

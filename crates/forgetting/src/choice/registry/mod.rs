@@ -72,7 +72,7 @@ macro_rules! modules {
         pub const AXIS: $crate::choice::Axis = $crate::choice::Axis {
             name: $axis,
             plural: $plural,
-            source: include_str!("mod.rs"),
+            source: $crate::choice::registry::header!("mod.rs"),
             entries: $LIST,
         };
     };
@@ -84,10 +84,20 @@ macro_rules! entry {
         $crate::choice::About {
             name: stringify!($module),
             type_name: stringify!($Choice),
-            source: include_str!(concat!(stringify!($module), ".rs")),
+            source: $crate::choice::registry::header!(concat!(stringify!($module), ".rs")),
             ..$module::ABOUT
         }
     };
 }
 
-pub(crate) use {entry, modules, registry};
+/// The header of a file, in bytes of its own: of the rest of the file nothing gets into the program.
+macro_rules! header {
+    ($file:expr) => {{
+        const FILE: &str = include_str!($file);
+        const HEADER: [u8; $crate::choice::about::header_length(FILE)] =
+            $crate::choice::about::copy_of(FILE);
+        $crate::choice::about::text_of(&HEADER)
+    }};
+}
+
+pub(crate) use {entry, header, modules, registry};

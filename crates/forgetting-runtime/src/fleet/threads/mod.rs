@@ -1,9 +1,10 @@
 //! Streams on several cores.
 
+#[cfg_attr(target_arch = "wasm32", path = "no_cores.rs")]
+mod cores;
+
 use forgetting::fleet::{Outputs, Samples};
 use forgetting::Real;
-use rayon::prelude::*;
-use std::sync::OnceLock;
 
 /// Numbers of the state from which on a second core gains more than it costs to wake it.
 const LARGE: usize = 1 << 19;
@@ -15,20 +16,14 @@ const SHARES: usize = 4;
 pub fn parts(threads: Option<usize>, numbers: usize) -> usize {
     match threads {
         Some(1) => 1,
-        _ if !has_threads() => 1,
+        _ if !cores::are_there() => 1,
         Some(threads) => threads,
         None if numbers < LARGE => 1,
-        None => match rayon::current_num_threads() {
+        None => match cores::count() {
             1 => 1,
-            cores => SHARES * cores,
+            count => SHARES * count,
         },
     }
-}
-
-/// Whether this process has the threads: one that was forked from another has not.
-fn has_threads() -> bool {
-    static PROCESS: OnceLock<u32> = OnceLock::new();
-    *PROCESS.get_or_init(std::process::id) == std::process::id()
 }
 
 /// Gives each part, of so many streams of n parameters, what is its own of samples and results;
@@ -46,11 +41,9 @@ pub fn sum<'a, T: Real, P: Send>(
         (own_outputs, outputs) = outputs.split_at(count);
         tasks.push((part, own_samples, own_outputs));
     }
-    if tasks.len() < 2 {
-        return tasks
-            .into_iter()
-            .map(|(part, samples, outputs)| work(part, samples, outputs))
-            .sum();
+    let work = |(part, samples, outputs)| work(part, samples, outputs);
+    match tasks.len() {
+        0 | 1 => tasks.into_iter().map(work).sum(),
+        _ => cores::sum(tasks, work),
     }
-    tasks.into_par_iter().map(|(part, samples, outputs)| work(part, samples, outputs)).sum()
 }
