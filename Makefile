@@ -6,6 +6,8 @@
 #                libopenblas0-pthread; without them the report says what is missing
 #   make accuracy   one-step errors beside peers and the best that could have been chosen in hindsight, on the
 #                records of the demo; RECORDS=folder for other ones, .csv or .parquet
+#   make spark   tests on Spark, with a cluster of two workers on this machine; needs a Java runtime, and sets up an
+#                environment of its own in .venv-spark. FORGETTING_FULL=1 for all engines beside one another
 #   make docs    the documentation, warnings as errors
 #   make fuzz    random input for FUZZ_SECONDS a target (an hour), new seeds each time: estimators, saved
 #                states, text files, formulas, clocks, tables of fleets
@@ -25,11 +27,14 @@ DEVELOP = . $(BIN)/activate && maturin develop --quiet
 SHIPPED := pvanalytics==0.2.2 sweat==0.25.0
 WITH_RECORDS = PYTHONPATH=$(CURDIR)/$(VENV)/records
 
+# PySpark has wishes of its own about pandas, so it has an environment of its own. It sees the package as built.
+SPARK := .venv-spark
+
 FUZZ_SECONDS ?= 3600
 SOAK_STEPS ?= 1000000000
 SOAK_FOLDER ?= $(CURDIR)/build/soak
 
-.PHONY: accuracy fuzz soak demo test lint rust python build bench bench-full docs stubs clean
+.PHONY: accuracy spark fuzz soak demo test lint rust python build bench bench-full docs stubs clean
 
 demo: $(VENV)/records
 	$(DEVELOP) --profile $(PROFILE) --extras cli
@@ -65,6 +70,17 @@ $(VENV)/records: $(VENV)/maturin
 $(VENV)/ready: pyproject.toml $(VENV)/records
 	cargo clippy --version >/dev/null && cargo fmt --version >/dev/null
 	$(DEVELOP) --profile $(PROFILE) --extras cli,test
+	touch $@
+
+spark: build $(SPARK)/ready
+	$(PYTHON) tests/spark/java.py
+	OPENBLAS_NUM_THREADS=1 $(SPARK)/bin/python -m pytest --durations 5 tests/spark python/forgetting/spark \
+	    "tests/pages/test_pages.py::test_page[spark.md]"
+
+$(SPARK)/ready: tests/spark/requirements.txt
+	$(PYTHON) -m venv $(SPARK)
+	$(SPARK)/bin/python -m pip --disable-pip-version-check -q install -r $<
+	echo "$(CURDIR)/python" > "$$($(SPARK)/bin/python -c 'import site; print(site.getsitepackages()[0])')/forgetting.pth"
 	touch $@
 
 fuzz: build
@@ -103,4 +119,4 @@ bench-full: $(VENV)/ready
 
 clean:
 	cargo clean
-	rm -rf $(VENV) demo build
+	rm -rf $(VENV) $(SPARK) demo build

@@ -10,7 +10,9 @@ from typing import Any
 
 import forgetting
 
-WORKERS, SHUFFLE = 2, 4
+WORKERS, SHUFFLE = 2, 2
+SHORT = "-XX:TieredStopAtLevel=1 -XX:+UseSerialGC"
+"""Options of Java for processes that live a minute."""
 ROCKSDB = "org.apache.spark.sql.execution.streaming.state.RocksDBStateStoreProvider"
 EXECUTOR = "CoarseGrainedExecutorBackend"
 
@@ -29,8 +31,10 @@ def session(folder: Path) -> Any:
         "spark.driver.host": "127.0.0.1",
         "spark.driver.bindAddress": "127.0.0.1",
         "spark.ui.enabled": "false",
-        "spark.local.dir": str(folder / "local"),
         "spark.sql.warehouse.dir": str(folder / "warehouse"),
+        "spark.driver.extraJavaOptions": SHORT,
+        "spark.executor.extraJavaOptions": SHORT,
+        "spark.sql.codegen.wholeStage": "false",
         "spark.sql.shuffle.partitions": str(SHUFFLE),
         "spark.sql.streaming.stateStore.providerClass": ROCKSDB,
         "spark.sql.session.timeZone": "America/New_York",

@@ -1,4 +1,4 @@
-"""A table on a cluster of two workers: each row once, every stream as on one machine, bit for bit."""
+"""A table on a cluster of two workers: each row once, every stream as on one machine."""
 
 from __future__ import annotations
 

@@ -99,7 +99,10 @@ def test_an_altered_state_stops_no_other():
     after = after.sort_by("meter")
     assert after.column("status").to_pylist() == ["ok", "refused", "ok", "ok"]
     assert after.column("state")[1].as_py() == bytes_[1]
-    assert run(design, later, before)[1].sort_by("meter").column("state")[0] == after.column("state")[0]
+    assert (
+        run(design, later, before)[1].sort_by("meter").column("state")[0]
+        == after.column("state")[0]
+    )
 
 
 def test_a_state_of_another_model_is_refused():

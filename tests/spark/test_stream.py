@@ -5,12 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import pyarrow as pa
-import pytest
 from pyarrow import parquet
 from rows import SETTINGS, assert_equal_rows, assert_equal_states, in_order, table, told_alone
 
-import forgetting as fg
-from forgetting.spark import identify, stateful, states
+from forgetting.spark import stateful, states
 from forgetting.tables import TableFleet
 
 OUTPUTS = ("prediction", "error", "skipped")
@@ -51,9 +49,7 @@ def test_rows_as_they_come(spark, tmp_path):
     parts = [table(ROWS, seed=k, first=ROWS * k, keys=20) for k in range(FILES)]
     parts[2] = pa.concat_tables([parts[2], late(parts[0])])
     source = written(tmp_path / "rows", parts)
-    told = stateful(
-        rows_of(spark, source), shards=3, outputs=OUTPUTS, keep="row", **DESIGN
-    )
+    told = stateful(rows_of(spark, source), shards=3, outputs=OUTPUTS, keep="row", **DESIGN)
     found = follow(told, tmp_path)
     fleet = TableFleet("meter", "y", ["u"], time="t", **SETTINGS)
     alone = [told_alone(fleet, part, OUTPUTS) for part in parts]

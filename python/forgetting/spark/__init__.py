@@ -1,4 +1,4 @@
-"""Many streams on Spark: `TableFleet` in every partition of a table, and in every shard of a stream.
+"""Many streams on Spark: a `TableFleet` in every partition of a table and every shard of a stream.
 
 `identify` takes a table, `stateful` a stream of Structured Streaming; `load` and `states` read what
 they have kept. Needs a Java runtime and PySpark: ``pip install forgetting[spark]``.

@@ -145,9 +145,18 @@ def identify(
 
     Examples
     --------
+    >>> import math
     >>> from pyspark.sql import SparkSession
+    >>> from forgetting.spark import identify
     >>> spark = SparkSession.builder.getOrCreate()
-    >>> df = spark.createDataFrame([("a", k, k * 1.0, k * 2.0) for k in range(9)], "m: string, t: int, u: double, y: double")
+    >>> rows = [("ab"[k % 2], k, math.sin(k), (2 + k % 2) * math.sin(k)) for k in range(200)]
+    >>> df = spark.createDataFrame(rows, ["meter", "t", "u", "y"])
+    >>> done = identify(df, by="meter", time="t", y="y", phi="u", rule="subspace")
+    >>> done.told.columns
+    ['meter', 't', 'prediction', 'error', 'skipped']
+    >>> [(row["meter"], row["samples"], round(row["theta:u"], 3))
+    ...  for row in done.state.orderBy("meter").collect()]
+    [('a', 100, 2.0), ('b', 100, 3.0)]
     """
     settings = {"key": by, "y": y, "phi": phi, "time": time, **settings}
     design = design_of(df, outputs, keep, settings)

@@ -6,7 +6,6 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-
 from forgetting._core import InvalidInput
 from forgetting.spark.columns import types
 from forgetting.spark.packing import read

@@ -66,7 +66,9 @@ def packs(table: Any) -> Iterator[bytes]:
 
 def unpacked(packed: Iterable[bytes], schema: Any) -> Any:
     """The table of what `packs` has made."""
-    return pa.Table.from_batches([pa.ipc.read_record_batch(each, schema) for each in packed], schema)
+    return pa.Table.from_batches(
+        [pa.ipc.read_record_batch(each, schema) for each in packed], schema
+    )
 
 
 def written(table: Any) -> bytes:

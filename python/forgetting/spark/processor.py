@@ -35,7 +35,8 @@ class Processor(StatefulProcessor):
         """Say what is kept."""
         self._handle = handle
         self._streams = handle.getValueState(STREAMS, BYTES)
-        self._waiting = handle.getValueState(WAITING, BYTES) if self._layout.waits else None
+        if self._layout.waits:
+            self._waiting = handle.getValueState(WAITING, BYTES)
 
     def handleInputRows(self, key: Any, rows: Any, timerValues: Any) -> Iterator[Any]:
         """Take the rows that a micro-batch brings."""
@@ -43,7 +44,9 @@ class Processor(StatefulProcessor):
         new = unpacked(packed, self._layout.design.rows)
         return self._take(pa.concat_tables([self._held(), new]), timerValues)
 
-    def handleExpiredTimer(self, key: Any, timerValues: Any, expiredTimerInfo: Any) -> Iterator[Any]:
+    def handleExpiredTimer(
+        self, key: Any, timerValues: Any, expiredTimerInfo: Any
+    ) -> Iterator[Any]:
         """Take the rows that the watermark has passed."""
         return self._take(self._held(), timerValues)
 
@@ -56,7 +59,7 @@ class Processor(StatefulProcessor):
         waits = self._layout.waits
         watermark = timers.getCurrentWatermarkInMs() if waits else None
         due, waiting = self._layout.released(rows, watermark)
-        if self._waiting is not None:
+        if waits:
             self._wait(waiting)
         if len(due):
             kept = self._streams.get()
@@ -68,7 +71,7 @@ class Processor(StatefulProcessor):
 
     def _held(self) -> Any:
         """The rows that wait."""
-        kept = None if self._waiting is None else self._waiting.get()
+        kept = self._waiting.get() if self._layout.waits else None
         if kept is None:
             return self._layout.design.rows.empty_table()
         return read(bytes(kept[0])).cast(self._layout.design.rows)

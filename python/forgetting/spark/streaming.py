@@ -98,7 +98,10 @@ def _begun(start: Any, by: str, layout: Layout) -> Any:
     """States by shard."""
     states = states_of(start, layout.design)
     by_shard = states.select(shard_of(by, layout.shards), "*").groupBy("shard")
-    return by_shard.applyInArrow(Start(layout), "shard int, streams binary").groupBy("shard")
+    begin = Start(layout)
+    # a function: of an object, Spark would count `self` among the arguments
+    begun = by_shard.applyInArrow(lambda rows: begin(rows), "shard int, streams binary")
+    return begun.groupBy("shard")
 
 
 def _check(spark: Any, shards: int, delay: str | None, design: Design) -> None:
@@ -107,4 +110,6 @@ def _check(spark: Any, shards: int, delay: str | None, design: Design) -> None:
     if "shard" in design.rows.names:
         raise InvalidInput("a column is named 'shard', allowed: another name")
     if spark.conf.get(PROVIDER) != ROCKSDB:
-        raise InvalidInput(f"the state store must be RocksDB: spark.conf.set({PROVIDER!r}, {ROCKSDB!r})")
+        raise InvalidInput(
+            f"the state store must be RocksDB: spark.conf.set({PROVIDER!r}, {ROCKSDB!r})"
+        )
