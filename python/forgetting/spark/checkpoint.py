@@ -50,6 +50,7 @@ def states(spark: Any, checkpoint: str) -> Any:
     InvalidInput
         When no stream is kept there.
     """
+    _ = spark.streams  # starts what workers ask for the places of state stores
     stored = spark.read.format("statestore").option("stateVarName", STREAMS).load(checkpoint)
     kept = stored.select("value.kept")
     first = kept.first()

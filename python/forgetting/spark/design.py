@@ -7,10 +7,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import pyarrow as pa
-from pyspark.sql.pandas.types import to_arrow_type
 
 from forgetting._core import InvalidInput
-from forgetting.spark.columns import named, types
+from forgetting.spark.columns import arrow_type, named, types
 from forgetting.spark.standing import OWN, standing
 from forgetting.tables import Model, TableFleet
 from forgetting.tables.outputs import checked
@@ -110,7 +109,7 @@ def _schema(df: Any, columns: Sequence[str]) -> Any:
         if there.count(name) != 1:
             near = suggestion(there, name, "it has")
             raise InvalidInput(f"the table has {there.count(name)} columns named {name!r}{near}")
-    return pa.schema([(name, to_arrow_type(df.schema[name].dataType)) for name in columns])
+    return pa.schema([(name, arrow_type(df.schema[name].dataType)) for name in columns])
 
 
 def _plain(schema: Any) -> Any:
