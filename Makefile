@@ -34,7 +34,7 @@ FUZZ_SECONDS ?= 3600
 SOAK_STEPS ?= 1000000000
 SOAK_FOLDER ?= $(CURDIR)/build/soak
 
-.PHONY: accuracy spark fuzz soak demo test lint rust python build bench bench-full docs stubs clean
+.PHONY: accuracy spark java fuzz soak demo test lint rust python build bench bench-full docs stubs clean
 
 demo: $(VENV)/records
 	$(DEVELOP) --profile $(PROFILE) --extras cli
@@ -72,10 +72,11 @@ $(VENV)/ready: pyproject.toml $(VENV)/records
 	$(DEVELOP) --profile $(PROFILE) --extras cli,test
 	touch $@
 
-spark: build $(SPARK)/ready
-	$(PYTHON) tests/spark/java.py
-	OPENBLAS_NUM_THREADS=1 $(SPARK)/bin/python -m pytest --durations 5 tests/spark python/forgetting/spark \
-	    "tests/pages/test_pages.py::test_page[spark.md]"
+spark: java build $(SPARK)/ready
+	OPENBLAS_NUM_THREADS=1 $(SPARK)/bin/python -m pytest --durations 5 tests/spark python/forgetting/spark
+
+java:
+	@$(PYTHON) tests/spark/java.py
 
 $(SPARK)/ready: tests/spark/requirements.txt
 	$(PYTHON) -m venv $(SPARK)

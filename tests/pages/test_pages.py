@@ -32,7 +32,7 @@ NOT_RUN = {
 SHELL = ("cp", "cat", "gzip", "grep")
 """Commands of the shell that a page may use."""
 NEEDS = {"spark.md": "pyspark"}
-"""Pages that need a library which `make test` does not install: `make spark` runs them."""
+"""Pages that need a library which `make test` does not install; `make spark` runs this one."""
 ENDLESS = re.compile(r"--follow|tail .*-F")
 """What runs until Ctrl-C."""
 WINDUP = 1
