@@ -5,10 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 import pyarrow as pa
+import pytest
 from pyarrow import parquet
+from pyspark.sql.functions import lit
 from rows import SETTINGS, assert_equal_rows, assert_equal_states, in_order, table, told_alone
 
+import forgetting as fg
 from forgetting.spark import stateful, states
+from forgetting.spark.streaming import PROVIDER
 from forgetting.tables import TableFleet
 
 OUTPUTS = ("prediction", "error", "skipped")
@@ -58,6 +62,34 @@ def test_rows_as_they_come(spark, tmp_path):
     assert_equal_rows(found, plain.sort_by("row"))
     kept = states(spark, str(tmp_path / "checkpoint"))
     assert_equal_states(kept.toArrow(), fleet)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"shards": 0}, "shards = 0, allowed: whole numbers from 1"),
+        ({"shards": "4"}, "shards = '4'"),
+        ({"time": "row", "delay": "1 hour"}, "'row' of int64, allowed: timestamps"),
+        ({"keep": "shard"}, "named 'shard'"),
+        ({"start": "rows"}, "state has the columns meter, t, u"),
+    ],
+)
+def test_what_is_refused(spark, change, words):
+    rows = spark.createDataFrame(table(5)).withColumn("shard", lit(1))
+    if "start" in change:
+        change = {"start": rows}
+    with pytest.raises(fg.InvalidInput, match=words):
+        stateful(rows, **DESIGN | {"shards": 2} | change)
+
+
+def test_another_state_store_is_refused_with_the_line_to_write(spark):
+    before = spark.conf.get(PROVIDER)
+    spark.conf.set(PROVIDER, before.replace("RocksDB", "HDFSBacked"))
+    try:
+        with pytest.raises(fg.InvalidInput, match="must be RocksDB"):
+            stateful(spark.createDataFrame(table(5)), shards=2, **DESIGN)
+    finally:
+        spark.conf.set(PROVIDER, before)
 
 
 def late(given: pa.Table) -> pa.Table:

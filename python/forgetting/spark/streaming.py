@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Any
 
+import pyarrow as pa
 from pyspark.sql import functions as F
 
 from forgetting._core import InvalidInput
@@ -109,7 +110,12 @@ def _check(spark: Any, shards: int, delay: str | None, design: Design) -> None:
         raise InvalidInput(f"shards = {shards!r}, allowed: whole numbers from 1")
     if "shard" in design.rows.names:
         raise InvalidInput("a column is named 'shard', allowed: another name")
-    if spark.conf.get(PROVIDER) != ROCKSDB:
+    time = design.rows.field(str(design.settings["time"]))
+    if delay is not None and not pa.types.is_timestamp(time.type):
+        raise InvalidInput(
+            f"delay = {delay!r} with time column {time.name!r} of {time.type}, allowed: timestamps"
+        )
+    if "RocksDB" not in spark.conf.get(PROVIDER):
         raise InvalidInput(
             f"the state store must be RocksDB: spark.conf.set({PROVIDER!r}, {ROCKSDB!r})"
         )
