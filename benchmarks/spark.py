@@ -47,11 +47,12 @@ def session(folder: Path) -> Any:
         "spark.driver.host": "127.0.0.1",
         "spark.driver.memory": "3g",
         "spark.ui.enabled": "false",
+        "spark.python.authenticate.socketTimeout": "120s",
         "spark.local.dir": str(folder),
         "spark.sql.shuffle.partitions": str(2 * CORES),
         "spark.sql.streaming.stateStore.providerClass": ROCKSDB,
     }
-    builder = SparkSession.builder.master(f"local[{CORES}]")
+    builder = SparkSession.builder.master(f"local[{CORES},4]")
     for name, value in settings.items():
         builder = builder.config(name, value)
     spark = builder.getOrCreate()
@@ -201,33 +202,40 @@ def report(cases: dict[str, tuple[Callable[[str], Any], int]], paths: tuple[str,
     print(table(["", "rows a second of the processor", "by the clock"], rows))
 
 
+def tables(spark: Any, folder: Path, rows: int, keys: int) -> None:
+    """A table at once."""
+    print(f"{rows:,} rows of {keys:,} keys in a table, two regressors, {CORES} cores:\n")
+    paths = write(folder / "few", rows // 50, keys // 50), write(folder / "many", rows, keys)
+    ways = {
+        "`identify`: every row told, every state kept": batch_ours,
+        "pandas UDF a key, `RLS.run`: estimates only": batch_record,
+        "pandas UDF a key, `RLS.update`: estimates only": batch_samples,
+    }
+    report({k: (lambda p, f=f: estimates(f, spark, p), rows) for k, f in ways.items()}, paths)
+
+
+def streams(spark: Any, folder: Path, rows: int) -> None:
+    """Files as they come."""
+    print(f"\n{BATCHES} micro-batches of {rows:,} rows of {DEVICES:,} keys, RocksDB:\n")
+    short = write(folder / "short", 1000, DEVICES // 50, 2)
+    long = write(folder / "long", rows, DEVICES, BATCHES)
+    ways = {
+        f"`stateful`, {SHARDS} shards": stream_ours,
+        "`transformWithStateInPandas`, a state a key": stream_one_state,
+    }
+
+    def run(of: Callable[[Any], Any]) -> Callable[[str], Any]:
+        return lambda path: follow(of, spark, path, Path(tempfile.mkdtemp(dir=folder)))
+
+    report({k: (run(f), BATCHES * rows) for k, f in ways.items()}, (short, long))
+
+
 def main(rows: int = ROWS, keys: int = KEYS) -> None:
     """Tables, then streams."""
     with tempfile.TemporaryDirectory() as made:
-        folder = Path(made)
-        spark = session(folder)
-        print(f"{rows:,} rows of {keys:,} keys in a table, two regressors, {CORES} cores:\n")
-        few = write(folder / "few", rows // 50, keys // 50), write(folder / "many", rows, keys)
-        batch = {
-            "`identify`: every row told, every state kept": batch_ours,
-            "pandas UDF a key, `RLS.run`: estimates only": batch_record,
-            "pandas UDF a key, `RLS.update`: estimates only": batch_samples,
-        }
-        report({k: (lambda p, f=f: estimates(f, spark, p), rows) for k, f in batch.items()}, few)
-
-        each = rows // 10
-        print(f"\n{BATCHES} micro-batches of {each:,} rows of {DEVICES:,} keys, RocksDB:\n")
-        short = write(folder / "short", 1000, DEVICES // 50, 2)
-        long = write(folder / "long", each, DEVICES, BATCHES)
-        stream = {
-            f"`stateful`, {SHARDS} shards": stream_ours,
-            "`transformWithStateInPandas`, a state a key": stream_one_state,
-        }
-
-        def run(of: Callable[[Any], Any]) -> Callable[[str], Any]:
-            return lambda path: follow(of, spark, path, Path(tempfile.mkdtemp(dir=folder)))
-
-        report({k: (run(f), BATCHES * each) for k, f in stream.items()}, (short, long))
+        spark = session(Path(made))
+        tables(spark, Path(made), rows, keys)
+        streams(spark, Path(made), rows // 10)
         spark.stop()
 
 

@@ -31,6 +31,7 @@ def session(folder: Path) -> Any:
         "spark.driver.host": "127.0.0.1",
         "spark.driver.bindAddress": "127.0.0.1",
         "spark.ui.enabled": "false",
+        "spark.python.authenticate.socketTimeout": "120s",
         "spark.sql.warehouse.dir": str(folder / "warehouse"),
         "spark.driver.extraJavaOptions": SHORT,
         "spark.executor.extraJavaOptions": SHORT,

@@ -149,7 +149,7 @@ def identify(
     >>> from pyspark.sql import SparkSession
     >>> from forgetting.spark import identify
     >>> spark = SparkSession.builder.getOrCreate()
-    >>> rows = [("ab"[k % 2], k, math.sin(k), (2 + k % 2) * math.sin(k)) for k in range(200)]
+    >>> rows = [("ab"[k % 2], k, math.cos(k), (2 + k % 2) * math.cos(k)) for k in range(200)]
     >>> df = spark.createDataFrame(rows, ["meter", "t", "u", "y"])
     >>> done = identify(df, by="meter", time="t", y="y", phi="u", rule="subspace")
     >>> done.told.columns
