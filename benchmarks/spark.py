@@ -168,20 +168,15 @@ def follow(of: Callable[[Any], Any], spark: Any, path: str, folder: Path) -> pd.
     """What is told of files as they come, one a micro-batch."""
     schema = spark.read.parquet(path).schema
     rows = spark.readStream.schema(schema).option("maxFilesPerTrigger", 1).parquet(path)
-    query = (
-        of(rows)
-        .writeStream.option("path", str(folder / "told"))
-        .option("checkpointLocation", str(folder / "checkpoint"))
-        .trigger(availableNow=True)
-        .start()
-    )
-    query.awaitTermination()
-    print(written(folder / "checkpoint"), file=sys.stderr)
+    written = of(rows).writeStream.option("path", str(folder / "told"))
+    kept = written.option("checkpointLocation", str(folder / "checkpoint"))
+    kept.trigger(availableNow=True).start().awaitTermination()
+    print(state_written(folder / "checkpoint"), file=sys.stderr)
     found = spark.read.parquet(str(folder / "told")).select("key", "t", F.col("error"))
     return found.toPandas().sort_values(["t"], ignore_index=True)
 
 
-def written(checkpoint: Path) -> str:
+def state_written(checkpoint: Path) -> str:
     """What the state store has written for all micro-batches; Spark keeps the last hundred."""
     files = [path for path in (checkpoint / "state").rglob("*") if path.is_file()]
     total = sum(path.stat().st_size for path in files)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ WORKERS, SHUFFLE = 2, 2
 SHORT = "-XX:TieredStopAtLevel=1 -XX:+UseSerialGC"
 """Options of Java for processes that live a minute."""
 ROCKSDB = "org.apache.spark.sql.execution.streaming.state.RocksDBStateStoreProvider"
+TRIES, SLOW = 5, "Python worker failed to connect back"
 EXECUTOR = "CoarseGrainedExecutorBackend"
 
 
@@ -48,6 +50,22 @@ def session(folder: Path) -> Any:
     started = builder.getOrCreate()
     started.sparkContext.setLogLevel("OFF")
     return started
+
+
+def finish(start: Callable[[], Any]) -> None:
+    """Run a query to its end, which goes on from its checkpoint if it must be started again.
+
+    Spark gives the Python process of a stateful query ten seconds to start, whatever it is set
+    to, which a busy machine may need more of.
+    """
+    for _ in range(TRIES):
+        try:
+            start().awaitTermination()
+            return
+        except Exception as error:
+            if SLOW not in str(error):
+                raise
+    raise TimeoutError(f"{TRIES} times: {SLOW}")
 
 
 def executors(driver: int) -> list[int]:

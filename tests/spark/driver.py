@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from cluster import session
+from cluster import finish, session
 from rows import SETTINGS
 
 from forgetting.spark import identify, load, stateful
@@ -37,13 +37,9 @@ def main(folder: Path) -> None:
         keep="row",
         **DESIGN,
     )
-    query = (
-        told.writeStream.option("path", str(folder / "told"))
-        .option("checkpointLocation", str(folder / "checkpoint"))
-        .trigger(availableNow=True)
-        .start()
-    )
-    query.awaitTermination()
+    written = told.writeStream.option("path", str(folder / "told"))
+    kept = written.option("checkpointLocation", str(folder / "checkpoint"))
+    finish(kept.trigger(availableNow=True).start)
 
 
 if __name__ == "__main__":

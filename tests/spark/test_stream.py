@@ -6,6 +6,7 @@ from typing import Any
 
 import pyarrow as pa
 import pytest
+from cluster import finish
 from pyarrow import parquet
 from pyspark.sql.functions import lit
 from rows import SETTINGS, assert_equal_rows, assert_equal_states, in_order, table, told_alone
@@ -36,16 +37,9 @@ def rows_of(spark, folder) -> Any:
 
 def follow(told, folder) -> pa.Table:
     """Take what is there, and say what has been told."""
-    query = (
-        told.writeStream.format("parquet")
-        .option("path", str(folder / "told"))
-        .option("checkpointLocation", str(folder / "checkpoint"))
-        .outputMode("append")
-        .trigger(availableNow=True)
-        .start()
-    )
-    query.awaitTermination()
-    assert query.exception() is None
+    written = told.writeStream.option("path", str(folder / "told"))
+    kept = written.option("checkpointLocation", str(folder / "checkpoint"))
+    finish(kept.trigger(availableNow=True).start)
     return told.sparkSession.read.parquet(str(folder / "told")).toArrow()
 
 

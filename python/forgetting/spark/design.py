@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import pyarrow as pa
@@ -41,7 +42,7 @@ class Design:
         """A fleet that has seen nothing; the cores are shared out by Spark."""
         return TableFleet(**{"threads": 1, **self.settings})
 
-    @property
+    @cached_property
     def model(self) -> Model:
         """The columns by role."""
         return self.fleet().model
