@@ -36,12 +36,13 @@ N = 4
 FITTED = [(s, r) for s in (250, 1000, 4000) for r in (1000, 4000, 16_000, 64_000)]
 CHECKED = [(500, 500), (2000, 250_000), (16_000, 2000), (16_000, 250_000)]
 REPEATS = 5
-SPARK_ROW = 10.0
-"""Microseconds of the processor that a row of a stream costs outside the shard's own work (reading,
-shuffle, Java to Python and back, writing); from `python -m benchmarks.spark`."""
-WRITES, SECONDS = 2, 60
-"""Times that Spark writes a changed value to disk (RocksDB's log and the checkpoint); seconds of a
-micro-batch, in which each stream has one row."""
+SPARK_ROW = 23.0
+"""Microseconds of the processor that a row costs outside our own work (reading, shuffle, Java to
+Python and back): that of `identify` in `python -m benchmarks.spark`."""
+WRITES, PACKED, SECONDS = 2, 0.38, 60
+"""Times that Spark writes what has changed (RocksDB's file, and its copy in the checkpoint); what
+RocksDB's compression leaves of it, measured with two parameters; seconds of a micro-batch, in which
+each stream has one row."""
 
 
 def rows_of(streams: int, rows: int, regressors: int, first: int) -> Any:
@@ -149,7 +150,7 @@ def extrapolated(model: np.ndarray, bytes_: float) -> str:
             f"{streams * bytes_ / 1e9:,.1f}",
         ]
         cells += [f"{streams / SECONDS:,.0f}", f"{cores:,.1f}"]
-        written = WRITES * streams * bytes_ / SECONDS / 1e6
+        written = WRITES * PACKED * streams * bytes_ / SECONDS / 1e6
         rows.append([*cells, f"{own / (own + 1e-6 * SPARK_ROW * streams):.0%}", f"{written:,.0f}"])
     header = ["streams", "shards", "state, GB", "rows/s", "cores", "of these our work"]
     return table([*header, "state written, MB/s"], rows)

@@ -32,7 +32,7 @@ def test_tables_one_after_the_other(spark, tmp_path):
         state = done.state
     with pytest.raises(fg.InvalidInput, match="is there already"):
         done.save(folder)
-    with pytest.raises(fg.InvalidInput, match="state has the columns meter, t, prediction"):
+    with pytest.raises(fg.InvalidInput, match="state has the columns meter, t, row, prediction"):
         identify(rows, state=done.told, **DESIGN)
 
 
