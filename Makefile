@@ -12,6 +12,8 @@
 #                Debian's apt-get, or says what is missing
 #   make sdist   the source distribution, built without git and installed into an empty environment;
 #                compiles everything, in some five minutes
+#   make spark   tests on Spark, with a cluster of two workers on this machine; needs a Java runtime, and sets up an
+#                environment of its own in .venv-spark. FORGETTING_FULL=1 for all engines beside one another
 #   make fuzz    random input for FUZZ_SECONDS a target (an hour), new seeds each time: estimators, saved
 #                states, text files, formulas, clocks, tables of fleets
 #   make soak    a billion samples through every rule of O(n^2), the default and the bank, in hours; goes on
@@ -34,11 +36,14 @@ DEVELOP = . $(BIN)/activate && maturin develop --quiet
 SHIPPED := pvanalytics==0.2.2 sweat==0.25.0
 WITH_RECORDS = PYTHONPATH=$(CURDIR)/$(VENV)/records
 
+# PySpark has wishes of its own about pandas, so it has an environment of its own. It sees the package as built.
+SPARK := .venv-spark
+
 FUZZ_SECONDS ?= 3600
 SOAK_STEPS ?= 1000000000
 SOAK_FOLDER ?= $(CURDIR)/build/soak
 
-.PHONY: accuracy c embedded fuzz soak demo test lint rust python build bench bench-full docs sdist stubs web clean
+.PHONY: accuracy c embedded fuzz java soak spark demo test lint rust python build bench bench-full docs sdist stubs web clean
 
 demo: $(VENV)/records
 	$(DEVELOP) --profile $(PROFILE) --extras cli
@@ -82,6 +87,18 @@ c: build
 
 embedded: build
 	PYTHON=$(CURDIR)/$(BIN)/python sh crates/forgetting-c/embedded/run.sh
+
+spark: java build $(SPARK)/ready
+	OPENBLAS_NUM_THREADS=1 $(SPARK)/bin/python -m pytest --durations 5 tests/spark python/forgetting/spark
+
+java:
+	@$(PYTHON) tests/spark/java.py
+
+$(SPARK)/ready: tests/spark/requirements.txt
+	$(PYTHON) -m venv $(SPARK)
+	$(SPARK)/bin/python -m pip --disable-pip-version-check -q install -r $<
+	echo "$(CURDIR)/python" > "$$($(SPARK)/bin/python -c 'import site; print(site.getsitepackages()[0])')/forgetting.pth"
+	touch $@
 
 fuzz: build
 	FUZZ_SECONDS=$(FUZZ_SECONDS) FUZZ_SEED=$$(date +%s) cargo test --package forgetting --profile $(PROFILE) \
@@ -137,4 +154,4 @@ bench-full: $(VENV)/ready
 
 clean:
 	cargo clean
-	rm -rf $(VENV) demo build
+	rm -rf $(VENV) $(SPARK) demo build

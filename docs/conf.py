@@ -59,6 +59,7 @@ myst_heading_anchors = 3
 
 autodoc_typehints = "none"  # the docstrings say shapes, units and ranges
 autodoc_member_order = "bysource"
+autodoc_mock_imports = ["pyspark"]  # too large to build pages with
 napoleon_google_docstring = False
 napoleon_use_rtype = False
 napoleon_use_ivar = True

@@ -31,7 +31,7 @@ LAYERS: tuple[tuple[tuple[str, ...], str], ...] = (
     (("tuning",), "runs many of them and says which predicts best"),
     (("tables",), "rows of tables go to the estimator of their key"),
     (("",), "what `import forgetting` shows: all of the above, and nothing above it"),
-    (("sklearn", "river"), "the estimators as other libraries want them"),
+    (("sklearn", "river", "spark"), "the estimators as other libraries and engines want them"),
     (("analysis",), "the theory applied to arrays; it has never heard of files"),
     (("record",), "files become identifications, which quote the analysis"),
     (("stream",), "lines become estimates as they come, by what a record means"),

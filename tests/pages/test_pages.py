@@ -31,6 +31,8 @@ NOT_RUN = {
 """What is marked on the pages, by page and first words."""
 SHELL = ("cp", "cat", "gzip", "grep")
 """Commands of the shell that a page may use."""
+NEEDS = {"spark.md": "pyspark"}
+"""Pages that need a library which `make test` does not install; `make spark` runs this one."""
 ENDLESS = re.compile(r"--follow|tail .*-F")
 """What runs until Ctrl-C."""
 WINDUP = 1
@@ -55,6 +57,8 @@ def folder(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_page(page, folder, capsys):
+    if page.name in NEEDS:
+        pytest.importorskip(NEEDS[page.name])
     names: dict[str, object] = {"__name__": page.stem}
     for block in blocks(page.read_text(encoding="utf-8")):
         if not block.is_run:

@@ -51,6 +51,19 @@ def test_a_saved_fleet_goes_on_bit_for_bit(settings, file, tmp_path):
     assert fleet.to_arrow().equals(again.to_arrow())
 
 
+@pytest.mark.parametrize("name", ["static", "clock"])
+@pytest.mark.parametrize("kind", [pa.timestamp("us", "UTC"), pa.timestamp("s"), pa.duration("ms")])
+def test_times_that_are_no_numbers_come_back(name, kind):
+    given = table(rows=200, keys=3)
+    position = given.column_names.index("t")
+    given = given.set_column(position, "t", given.column("t").cast(pa.int64()).cast(kind))
+    fleet = TableFleet("key", "y", **FLEETS[name])
+    fleet.update(given.slice(0, 100))
+    again = TableFleet.from_arrow(fleet.to_arrow())
+    assert fleet.update(given.slice(100)).equals(again.update(given.slice(100)))
+    assert fleet.to_arrow().equals(again.to_arrow())
+
+
 @pytest.mark.parametrize("settings", FLEETS.values(), ids=list(FLEETS))
 def test_some_streams_move_to_another_fleet(settings):
     fleet, _, second = halves(**settings)

@@ -144,7 +144,8 @@ class Kept:
         self.ticks = self.taken = None
         if not null(table.schema.field("time").type):
             self.ticks = ticks(table, "time", streams.time_type)
-            self.taken = ticks(table, "taken", self.ticks.type)
+            if streams.by_clock:
+                self.taken = ticks(table, "taken", self.ticks.type)
         self.counts = {name: table.column(name).to_numpy() for name in streams.counts}
         self.lags: NDArray[np.float64] | None = None
         if streams.lags is not None:
