@@ -8,7 +8,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 HAS_SPARK = find_spec("pyspark") is not None
-collect_ignore_glob = [] if HAS_SPARK else ["test_*.py"]
+collect_ignore_glob = [] if HAS_SPARK else ["*.py"]
 
 
 def pytest_configure(config):
