@@ -72,7 +72,7 @@ def identify(
     before = make_gate(gate)
     with progress_bar(f"identifying {record.name}") as progress:
         found = identify_record(
-            source(),
+            source,
             **model,
             rule=chosen,
             half_life=half_life,
