@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import gc
 import json
 import tracemalloc
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +18,7 @@ from forgetting.record import compare as comparing
 from forgetting.record import identify, samples
 from forgetting.record.moved import Moved
 from forgetting.record.origin import origin
-from forgetting.record.read import read
+from forgetting.record.read import Record, read
 from forgetting.record.samples import Samples
 
 COLUMNS = 8
@@ -168,3 +170,20 @@ def test_a_page_of_twelve_parameters_is_small(tmp_path):
     page = Path(tmp_path / "page.html")
     save(identify(frame, formula=model), page)
     assert page.stat().st_size < 2_000_000
+
+
+@pytest.mark.parametrize("command", ["identify", "certify", "compare"])
+def test_no_command_holds_the_table_while_it_works(command, tmp_path, monkeypatch, capsys):
+    alive = []
+
+    def count(rows: int) -> None:
+        gc.collect()
+        alive.append(sum(isinstance(each, Record) for each in gc.get_objects()))
+
+    for module in ("identify", "compare"):
+        monkeypatch.setattr(import_module(f"forgetting.record.{module}"), "release", count)
+    path = tmp_path / "r.csv"
+    wide(300).to_csv(path, index=False)
+    options = ["--rules", "none"] if command == "compare" else []
+    assert run([command, str(path), "--formula", "y ~ x0", *options]) == 0
+    assert alive == [0]

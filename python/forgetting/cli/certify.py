@@ -64,7 +64,7 @@ def certify(
     before, start = make_gate(gate), parse_covariance(initial_covariance)
     with progress_bar(f"certifying {record.name}") as progress:
         found = identify(
-            source(),
+            source,
             **model,
             rule=made,
             gate=before,

@@ -74,7 +74,7 @@ def compare(
         return show_record(source())
     with progress_bar(f"comparing on {record.name}") as progress:
         found = compare_rules(
-            source(),
+            source,
             chosen(rules),
             **model,
             initial_covariance=parse_covariance(initial_covariance),

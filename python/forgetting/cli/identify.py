@@ -73,7 +73,7 @@ def identify(
     before = make_gate(gate)
     with progress_bar(f"identifying {record.name}") as progress:
         found = identify_record(
-            source(),
+            source,
             **said,
             model=model,
             rule=chosen,

@@ -42,7 +42,8 @@ def told(
     Returns
     -------
     callable
-        Reads the record. It is not kept: the table is as large as all that is made of it.
+        Reads the record. It is passed on as it is, so that no caller keeps the table, which is as
+        large as all that is made of it.
     dict
         The model, as functions of `forgetting.record` take it.
     """

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -13,7 +13,7 @@ from forgetting.record.comparison import Compared, Comparison
 from forgetting.record.identify import build, listed
 from forgetting.record.origin import origin
 from forgetting.record.ranking import Whole, over_all
-from forgetting.record.read import Record
+from forgetting.record.read import Record, read
 from forgetting.record.release import release
 from forgetting.record.samples import Samples
 from forgetting.record.scores import scored_samples
@@ -32,7 +32,7 @@ MOST_RUNS = MEMORIES + 2 * ROUNDS
 
 
 def compare(
-    record: Record,
+    record: Record | Callable[[], Record],
     rules: Sequence[str],
     *,
     formula: str | None = None,
@@ -83,8 +83,9 @@ def compare(
     >>> [each.name for each in found.ranked]
     ['exponential', 'none']
     """
-    samples = build(record, formula, listed(output), listed(input), arx, offset)
-    del record  # the table, which nobody else may hold, is as large as what is made of it
+    source = read(record)
+    samples = build(source, formula, listed(output), listed(input), arx, offset)
+    del record, source  # the table, which nobody else may hold, is as large as what is made of it
     release(len(samples.y))
     whole = problem(samples)
     parts = split(whole, share)

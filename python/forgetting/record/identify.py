@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 
 def identify(
-    record: str | Path | IntoDataFrame | Record,
+    record: str | Path | IntoDataFrame | Record | Callable[[], Record],
     *,
     formula: str | None = None,
     output: str | Sequence[str] = (),
@@ -57,7 +57,7 @@ def identify(
 
     Parameters
     ----------
-    record : path, data frame or Record
+    record : path, data frame, Record or callable
         See `forgetting.record.read`.
     formula : str, optional
         A regression such as ``"power ~ 0 + sun + sun:warmth"``; ``lag(x, k)`` is x, k rows ago.

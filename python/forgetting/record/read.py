@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -62,7 +62,7 @@ class Record:
 
 
 def read(
-    source: str | Path | IntoDataFrame | Record,
+    source: str | Path | IntoDataFrame | Record | Callable[[], Record],
     time: str | None = None,
     *,
     gap: str | float | None = None,
@@ -74,12 +74,13 @@ def read(
 
     Parameters
     ----------
-    source : path, data frame or Record
+    source : path, data frame, Record or callable
         A file of any name, recognised by its content: delimited text (any common separator,
         decimal comma or point, encoding, lines before the table, a row of units), Parquet (also a
         folder of it), Arrow and Feather, Excel, MAT, JSON lines, TDMS, MDF, ULog; packed by gzip,
         xz, bzip2, Zstandard or ZIP; ``"-"`` is standard input. Or a table in memory: a data frame
-        of pandas, Polars, PyArrow, xarray or any other library that narwhals or Arrow knows.
+        of pandas, Polars, PyArrow, xarray or any other library that narwhals or Arrow knows. Or a
+        function that makes a Record: whoever passes it does not hold the table meanwhile.
     time : str, optional
         Name of the time column, two with a comma for a date and a time of day, or "none". Without
         it the column is taken that runs most like time.
@@ -115,6 +116,8 @@ def read(
     ('-200 taken as missing, 1 cell',)
     """
     words = [missing] if isinstance(missing, str | int | float) else list(missing)
+    if callable(source):
+        source = source()
     if isinstance(source, Record):
         again = time is not None or gap is not None or words
         return with_clock(source, time, gap, words) if again else source
