@@ -45,7 +45,8 @@ LAYERS: dict[str, tuple[str, ...]] = {
         "settings",  # what an estimator is made from; defaults
         "configure",  # from settings to an estimator
         "estimator bounds window",
-        "fleet bank",
+        "bank",
+        "fleet",
         "model",  # what makes regressors of signals, with an estimator behind it
     ),
     # what only Python needs
@@ -56,8 +57,8 @@ LAYERS: dict[str, tuple[str, ...]] = {
         "choice",
         "settings registry run update bank_update shared time",
         "window",
-        "rls",
-        "fleet bank",
+        "rls bank",
+        "fleet",
         "model",
     ),
 }

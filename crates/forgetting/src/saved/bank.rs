@@ -12,7 +12,7 @@
 //! | check | CRC-32 of all before it |
 
 use super::read::Reader;
-use super::write::Numbers;
+use super::write::{header, Numbers};
 use super::{crc32, unaltered, AnyEstimator, Error, Vec};
 use crate::bank::Bank;
 use crate::choice::bytes::write as choice;
@@ -20,7 +20,7 @@ use crate::memory::Dynamic;
 use crate::mixers::{AnyMixer, Mixer};
 use forgetting_kernels::Kernels;
 
-pub(super) const MARK: &[u8; 5] = b"FGBNK";
+const MARK: &[u8; 5] = b"FGBNK";
 const VERSION: u8 = 1;
 
 impl<T: Kernels> Bank<T> {
@@ -31,20 +31,39 @@ impl<T: Kernels> Bank<T> {
     pub fn to_bytes(&self) -> Result<Vec<u8>, Error> {
         let mut bytes = Vec::from(MARK.as_slice());
         bytes.extend_from_slice(&[VERSION, T::BYTES as u8, u8::from(self.follows_data())]);
-        bytes.extend_from_slice(&(self.members().len() as u16).to_le_bytes());
-        for member in self.members().iter() {
+        let members = self.members();
+        bytes.extend_from_slice(&(members.len() as u16).to_le_bytes());
+        for member in members.iter() {
             let member = member.to_bytes()?;
             bytes.extend_from_slice(&(member.len() as u32).to_le_bytes());
             bytes.extend_from_slice(&member);
         }
-        let mixer = self.mixer();
-        choice(&mut bytes, mixer.about().name, |each| {
-            mixer.describe(&mut |name, value| each(name, value));
-        })?;
+        self.write_mixer(&mut bytes)?;
         self.clone().visit_own(&mut Numbers(&mut bytes));
         let check = crc32(&bytes);
         bytes.extend_from_slice(&check.to_le_bytes());
         Ok(bytes)
+    }
+
+    /// What it is made of, all but the state: banks of which it is the same have states of the same kind.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] when a part of it is a function of the user's.
+    pub fn configuration(&self) -> Result<Vec<u8>, Error> {
+        let mut bytes = Vec::from([T::BYTES as u8, u8::from(self.follows_data())]);
+        for member in self.made() {
+            bytes.extend(header(member)?);
+            member.prior().clone().visit(&mut Numbers(&mut bytes));
+        }
+        self.write_mixer(&mut bytes)?;
+        Ok(bytes)
+    }
+
+    fn write_mixer(&self, bytes: &mut Vec<u8>) -> Result<(), Error> {
+        let mixer = self.mixer();
+        choice(bytes, mixer.about().name, |each| {
+            mixer.describe(&mut |name, value| each(name, value));
+        })
     }
 
     /// The bank that [`Bank::to_bytes`] saved.
@@ -78,6 +97,11 @@ impl<T: Kernels> Bank<T> {
     }
 }
 
+/// Whether these are the bytes of a bank, and not of one estimator.
+pub fn is_bank(bytes: &[u8]) -> bool {
+    bytes.starts_with(MARK)
+}
+
 /// The bytes of a number in a saved bank: 4 or 8.
 ///
 /// # Errors
@@ -91,7 +115,7 @@ pub fn bank_number_type(bytes: &[u8]) -> Result<usize, Error> {
 
 /// The bytes without their check, if they are those of a bank and unaltered.
 fn checked(bytes: &[u8]) -> Result<&[u8], Error> {
-    if !bytes.starts_with(MARK) {
+    if !is_bank(bytes) {
         return Err(Error::State { reason: "it is not a saved bank of estimators" });
     }
     unaltered(bytes, VERSION)

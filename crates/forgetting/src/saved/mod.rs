@@ -36,7 +36,7 @@ mod read;
 mod write;
 
 pub use crate::estimator::AnyEstimator;
-pub use bank::bank_number_type;
+pub use bank::{bank_number_type, is_bank};
 
 /// The version of the format that is written, and the latest that is read.
 pub const VERSION: u8 = 2;
@@ -111,7 +111,7 @@ pub fn number_type(bytes: &[u8]) -> Result<usize, Error> {
 /// The bytes without their check, if they are of this format and unaltered.
 fn checked(bytes: &[u8]) -> Result<&[u8], Error> {
     let refuse = |reason| Err(Error::State { reason });
-    if bytes.starts_with(bank::MARK) {
+    if is_bank(bytes) {
         return refuse("it is a saved bank of estimators, not one estimator");
     }
     if !bytes.starts_with(MARK) {
