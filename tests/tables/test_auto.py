@@ -75,7 +75,7 @@ def test_states_go_on_where_they_were(tmp_path):
     for each in (fleet, again):
         each.update(late)
     assert again.keys() == fleet.keys() and not again.refused
-    for key in fleet.keys():
+    for key in fleet:
         assert isinstance(again[key], fg.Bank)
         assert again[key].to_bytes() == fleet[key].to_bytes()
 

@@ -31,7 +31,8 @@ use pyo3::IntoPyObjectExt;
 /// rule : str or Rule, optional
 ///     Where to forget, as that of `RLS`; see `forgetting.rules()`. Not one made from a function of
 ///     yours. "auto" chooses nothing beforehand: each stream is what `Bank(parameters)` is, a mixture of
-///     random walks of eight speeds, for some 6 times the time and 8 times the memory of one rule.
+///     random walks of eight speeds. Of four parameters that takes about 1 microsecond a sample and
+///     1.5 kB a stream; one rule takes 1/50 of the time and 1/6 of the memory.
 /// forgetting_factor : float or (count,) array, optional
 ///     In place of that of the rule: for all streams, or one a stream; in (0, 1]. Not with "auto".
 /// weighting : str or Weighting, optional

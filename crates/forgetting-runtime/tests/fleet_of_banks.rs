@@ -97,8 +97,7 @@ fn streams_are_what_banks_are() {
 #[test]
 fn time_between_samples_counts() {
     let mut fleet = Fleet::of_banks(COUNT as i64, &BankSettings::new(3)).unwrap();
-    let mut banks: Vec<_> =
-        (0..COUNT).map(|_| Bank::new(&BankSettings::new(3)).unwrap()).collect();
+    let mut banks: Vec<_> = (0..COUNT).map(|_| Bank::new(&BankSettings::new(3)).unwrap()).collect();
     follow(&mut fleet, &mut banks, 3, Some(0.5));
     follow(&mut fleet, &mut banks, 3, Some(1.0));
 }

@@ -185,9 +185,9 @@ class TableFleet:
         Returns
         -------
         pyarrow.Table
-            key, state (the bytes of `RLS.to_bytes` or `Bank.to_bytes`, versioned and checked), time, taken, rows,
-            missing, late and lags; the model and the state of a new stream are among the
-            metadata.
+            key, state (the bytes of `RLS.to_bytes` or `Bank.to_bytes`, versioned and checked),
+            time, taken, rows, missing, late and lags; the model and the state of a new stream are
+            among the metadata.
 
         Raises
         ------

@@ -72,5 +72,6 @@ def _take_one(
 def _standing(est: RLS | Bank) -> dict[str, Any]:
     """theta and variance as they are: what a record of one missing sample tells."""
     nothing = np.full((1, est.parameters), np.nan, dtype=est.dtype)
-    run = est.run(nothing, nothing[:, 0], outputs=("theta", "variance"), missing="skip")
-    return {"theta": run.theta[0], "variance": run.variance[0]}
+    names = ("theta", "variance")
+    run = est.run(nothing, nothing[:, 0], outputs=names, missing="skip")
+    return {name: getattr(run, name)[0] for name in names}

@@ -144,13 +144,25 @@ fn unaltered(bytes: &[u8], latest: u8) -> Result<&[u8], Error> {
 
 /// The cyclic redundancy check of IEEE 802.3.
 fn crc32(bytes: &[u8]) -> u32 {
-    let step = |crc: u32, &byte: &u8| {
-        (0..8).fold(crc ^ u32::from(byte), |crc, _| {
-            (crc >> 1) ^ (0xEDB8_8320 & (crc & 1).wrapping_neg())
-        })
-    };
+    let step = |crc: u32, &byte: &u8| (crc >> 8) ^ OF_BYTE[usize::from(crc as u8 ^ byte)];
     !bytes.iter().fold(u32::MAX, step)
 }
+
+/// What the check makes of each byte, bit by bit.
+static OF_BYTE: [u32; 256] = {
+    let mut table = [0; 256];
+    let mut byte = 0;
+    while byte < 256 {
+        let (mut crc, mut bit) = (byte as u32, 0);
+        while bit < 8 {
+            crc = (crc >> 1) ^ (0xEDB8_8320 & (crc & 1).wrapping_neg());
+            bit += 1;
+        }
+        table[byte] = crc;
+        byte += 1;
+    }
+    table
+};
 
 #[cfg(test)]
 mod tests {
