@@ -37,6 +37,7 @@ CASES: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
     "the same, keys are text": ({"rule": "subspace", **PRIOR}, {"text": True}),
     "the same, one key has a tenth": ({"rule": "subspace", **PRIOR}, {"skewed": True}),
     "the default": ({}, {}),
+    "a bank each": ({"rule": "auto"}, {}),
     "half-life by the clock": ({"rule": "exponential", **PRIOR, "half_life": "1h"}, {}),
 }
 CHECKED = 20
@@ -81,7 +82,7 @@ def check(fleet: Any, settings: dict[str, Any], batches: list[Any]) -> None:
     if "half_life" in settings:
         own["rule"] = fg.Exponential(half_life=settings["half_life"])
     for key in fleet.keys()[:CHECKED]:
-        est, last = fg.RLS(N, **own), None
+        est, last = fg.Bank(N) if settings.get("rule") == "auto" else fg.RLS(N, **own), None
         for each in batches:
             rows = each.filter(np.array(each.column("key").to_pylist(), dtype=object) == key)
             rows = rows.sort_by("t") if "t" in rows.column_names else rows

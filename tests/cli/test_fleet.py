@@ -251,10 +251,30 @@ def test_half_lives_by_the_clock_and_by_samples(forgetting, data, tmp_path):
         (("--half-life", "1h", "--forgetting-factor", "0.9"), "--half-life goes without"),
         (("--half-life", "soon"), "half_life"),
         (("--rule", "best"), "no rule 'best'"),
+        (
+            ("--rule", "auto", "--half-life", "1h"),
+            "--half-life needs a rule with a forgetting factor",
+        ),
+        (("--rule", "auto", "--forgetting-factor", "0.9"), "the rule 'auto' has no parameters"),
     ],
 )
 def test_bad_use(forgetting, data, arguments, words):
     assert words in forgetting("fleet", data, *MODEL, *arguments).sentence()
+
+
+def test_a_bank_each(forgetting, data, tmp_path):
+    state = tmp_path / "f.arrow"
+    run = forgetting("fleet", data, *MODEL, "--rule", "auto", "--state", state, "--json")
+    assert run.code == 0, run.err
+    told, expected = json.loads(run.out), fg.Bank(2)
+    assert told["totals"]["status"] == {"ok": DEVICES, "windup": 0, "saturated": 0}
+    assert told["outliers"]["first"][0]["key"] == "dev 17"
+    rows = pa.concat_tables([part(k) for k in range(FILES)])
+    own = rows.filter(pa.array([d == "dev 03" for d in rows.column("device").to_pylist()]))
+    own = own.sort_by("t")
+    phi = np.column_stack([own.column("u").to_numpy(), np.ones(len(own))])
+    expected.run(phi, own.column("y").to_numpy(), missing="skip")
+    assert TableFleet.load(state)["dev 03"].to_bytes() == expected.to_bytes()
 
 
 def test_bad_files(forgetting, data, tmp_path):

@@ -47,7 +47,8 @@ LAYERS: dict[str, tuple[str, ...]] = {
         "settings",  # what an estimator is made from; defaults
         "configure",  # from settings to an estimator
         "estimator bounds window",
-        "fleet bank",
+        "bank",
+        "fleet",
         "model",  # what makes regressors of signals, with an estimator behind it
     ),
     # what only C needs
@@ -68,8 +69,8 @@ LAYERS: dict[str, tuple[str, ...]] = {
         "settings registry run update bank_update shared time",
         "window",
         "intervals",
-        "rls",
-        "fleet bank",
+        "rls bank",
+        "fleet",
         "model",
     ),
     # what only JavaScript needs

@@ -347,10 +347,16 @@ impl Bank {
 }
 
 impl Bank {
-    fn of(bank: Inner) -> Self {
+    /// A bank for Python.
+    pub fn of(bank: Inner) -> Self {
         let (sizes, number_type) =
             ([bank.parameters(), bank.rows(), bank.targets()], bank.number_type());
         Self { bank: Shared::new(bank), sizes, number_type }
+    }
+
+    /// A copy of what it is now.
+    pub fn copy(&self, py: Python<'_>) -> PyResult<Inner> {
+        Ok(self.bank.lock(py)?.clone())
     }
 
     fn input<'a, 'py>(

@@ -45,7 +45,7 @@ pub use bounds::{covariance_bounds, CovarianceBounds};
 pub use choice::{Choice, Description, Value};
 pub use error::{check_shape, Error, Kind};
 pub use estimator::{Estimator, GoOn, Health, Run, RunOptions};
-pub use fleet::{Fleet, FleetUpdate, StreamHealth};
+pub use fleet::{Fleet, FleetUpdate, Stream, StreamHealth};
 pub use forgetting::choice::function::Argument;
 pub use forgetting::models::{InputOrders, Orders, Structure, STRUCTURES};
 pub use forgetting::{bounded, Intervals};

@@ -139,19 +139,19 @@ fn streams_are_put_and_added_if_they_are_of_its_kind() {
     let mut fleet = Fleet::new(4, &settings, None).unwrap();
     let mut estimator = Estimator::new(&settings).unwrap();
     estimator.update([1.0, 2.0, 3.0][..].into(), [1.0][..].into(), None).unwrap();
-    fleet.put(-1, &estimator).unwrap();
+    fleet.put(-1, estimator.clone()).unwrap();
     assert_eq!(fleet.state(3).unwrap(), estimator.to_bytes().unwrap());
     let other = fleet.clone();
     fleet.append(&other).unwrap();
     assert_eq!((fleet.count(), fleet.state(7).unwrap()), (8, estimator.to_bytes().unwrap()));
 
-    let error = fleet.put(8, &estimator).unwrap_err();
+    let error = fleet.put(8, estimator.clone()).unwrap_err();
     assert_eq!(
         (error.kind(), error.to_string().as_str()),
         (Kind::Index, "stream 8 of a fleet of 8")
     );
     let single = Settings { number_type: NumberType::F32, ..settings.clone() };
-    let error = fleet.put(0, &Estimator::new(&single).unwrap()).unwrap_err();
+    let error = fleet.put(0, Estimator::new(&single).unwrap()).unwrap_err();
     assert_eq!(error.to_string(), "a stream has the dtype of its fleet");
     let error = fleet.append(&Fleet::new(2, &single, None).unwrap()).unwrap_err();
     assert_eq!(error.to_string(), "a stream has the dtype of its fleet");

@@ -12,7 +12,7 @@ from forgetting.cli import options
 from forgetting.cli.fleet_tables import as_data, print_survey
 from forgetting.cli.parse import parse_covariance, parse_orders
 from forgetting.cli.progress import rate_bar
-from forgetting.cli.rulebook import make_gate, make_rule
+from forgetting.cli.rulebook import make_gate, make_rule, rule_or_auto
 from forgetting.cli.tables import print_written, say
 from forgetting.files import check_outputs, whole
 from forgetting.words.errors import RecordError
@@ -51,7 +51,8 @@ RuleName = Annotated[
     str | None,
     options.option(
         options.RULE,
-        "Forgetting rule; 'forgetting rules' lists them. Without one, a bounded random walk.",
+        "Forgetting rule; 'forgetting rules' lists them. Without one, a bounded random walk; 'auto' "
+        "mixes walks of eight speeds and takes 1.5 kB a stream of four parameters.",
         "--rule",
         "-r",
     ),
@@ -188,6 +189,10 @@ def rule_of(
     said = forgetting_factor is not None or threshold is not None or settings or rate is not None
     if name is None and not said and half_life is None:
         return {}
+    if name == "auto":
+        if half_life is not None:
+            raise RecordError("--half-life needs a rule with a forgetting factor, not 'auto'")
+        return {"rule": rule_or_auto(name, forgetting_factor, threshold, settings, rate)}
     made = make_rule(name or "subspace", forgetting_factor, threshold, settings, rate)
     if half_life is None:
         return {"rule": made}

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from forgetting._core import RLS, Fleet, InvalidInput
+from forgetting._core import RLS, Bank, Fleet, InvalidInput
 from forgetting.extras import extra
 from forgetting.files import whole
 from forgetting.models.orders import Orders
@@ -29,7 +29,7 @@ class TableFleet:
 
     Streams start when their key first appears. The rows of a stream are taken in the order of
     time, and each as `RLS.update` would: up to ten parameters bit for bit what one `RLS` a key
-    gives, to rounding above.
+    gives, to rounding above; of the rule "auto" what one `Bank` a key gives, bit for bit.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ class TableFleet:
         the unit of `time` (seconds for dates). Streams then go one by one, some 20 µs each
         and batch.
     rule, forgetting_factor, weighting, gate, initial_covariance, initial_theta, dtype, threads
-        As of `Fleet`, the same for all streams.
+        As of `Fleet`, the same for all streams; with the rule "auto" each is a `Bank`.
 
     Raises
     ------
@@ -125,8 +125,8 @@ class TableFleet:
     def __contains__(self, key: object) -> bool:
         return key in self._streams.keys
 
-    def __getitem__(self, key: Any) -> RLS:
-        """A copy of the stream of this key, as an estimator that goes on from there."""
+    def __getitem__(self, key: Any) -> RLS | Bank:
+        """A copy of the stream of this key, an estimator that goes on from there."""
         if key not in self._streams.keys:
             raise KeyError(key)
         return self._streams.pages[self._streams.keys[key]]
@@ -185,9 +185,9 @@ class TableFleet:
         Returns
         -------
         pyarrow.Table
-            key, state (the bytes of `RLS.to_bytes`, versioned and checked), time, taken, rows,
-            missing, late and lags; the model and the state of a new stream are among the
-            metadata.
+            key, state (the bytes of `RLS.to_bytes` or `Bank.to_bytes`, versioned and checked),
+            time, taken, rows, missing, late and lags; the model and the state of a new stream are
+            among the metadata.
 
         Raises
         ------

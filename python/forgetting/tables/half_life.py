@@ -28,9 +28,10 @@ def with_half_life(rule: Any, half_life: Any) -> Any:
     >>> with_half_life("exponential", 1.0).forgetting_factor
     0.5
     """
-    made = AXES["rule"].make(rule) if isinstance(rule, str) else rule
-    if made is None or not made.about["forgetting_factor"]:
-        given = "no rule" if made is None else made.name
+    mixed = isinstance(rule, str) and rule == "auto"
+    made = AXES["rule"].make(rule) if isinstance(rule, str) and not mixed else rule
+    if made is None or mixed or not made.about["forgetting_factor"]:
+        given = "no rule" if made is None else rule if mixed else made.name
         raise InvalidInput(
             f"half_life = {half_life!r} with {given}, allowed: a rule with a forgetting factor"
         )

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from forgetting._core import RLS, Fleet
+from forgetting._core import RLS, Bank, Fleet
 from forgetting.tables.order import Groups
 from forgetting.tables.single import take_record
 
@@ -80,7 +80,7 @@ class Pages:
                 self.fleets[-1].append(more)
             missing -= more
 
-    def __getitem__(self, stream: int) -> RLS:
+    def __getitem__(self, stream: int) -> RLS | Bank:
         """A copy of the stream of this number."""
         return self.fleets[stream // PAGE][stream % PAGE]
 
@@ -92,8 +92,9 @@ class Pages:
 
     def put(self, streams: NDArray[np.int64], states: Sequence[bytes]) -> None:
         """Put saved states in the place of streams that are there."""
+        kind = type(self.new[0])
         for stream, state in zip(streams.tolist(), states, strict=True):
-            self.fleets[stream // PAGE][stream % PAGE] = RLS.from_bytes(state)
+            self.fleets[stream // PAGE][stream % PAGE] = kind.from_bytes(state)
 
     def gather(self, field: Callable[[Fleet], Array]) -> Array:
         """What a function says of each page, for all streams."""

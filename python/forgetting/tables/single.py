@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from forgetting._core import RLS, SKIPPED, InvalidInput, NumericalRange
+from forgetting._core import RLS, SKIPPED, Bank, InvalidInput, NumericalRange
 
 Array = NDArray[Any]
 
@@ -16,7 +16,7 @@ CODES = {word: code for code, word in SKIPPED.items()}
 
 
 def take_record(
-    est: RLS,
+    est: RLS | Bank,
     samples: tuple[Array, Array],
     clock: tuple[Array | None, float],
     told: dict[str, Array],
@@ -25,7 +25,7 @@ def take_record(
 
     Parameters
     ----------
-    est : RLS
+    est : RLS or Bank
     samples : phi (T, n) and y (T,)
     clock : time (T,) or None, and the time of the last sample before them, or NaN
     told : dict of str to ndarray
@@ -46,7 +46,7 @@ def take_record(
 
 
 def _take_one(
-    est: RLS,
+    est: RLS | Bank,
     sample: tuple[Array, float],
     clock: tuple[float | None, float],
     told: dict[str, Array],
@@ -62,8 +62,16 @@ def _take_one(
         found["skipped"] = CODES[update.skipped]
     except (InvalidInput, NumericalRange):
         pass
-    found |= {"theta": est.theta, "variance": np.diagonal(est.covariance)}
+    found |= _standing(est)
     for name, values in told.items():
         values[k] = found[name]
     left_out = found["skipped"] in (CODES["refused"], CODES["missing"])
     return last if left_out or now is None else now
+
+
+def _standing(est: RLS | Bank) -> dict[str, Any]:
+    """theta and variance as they are: what a record of one missing sample tells."""
+    nothing = np.full((1, est.parameters), np.nan, dtype=est.dtype)
+    names = ("theta", "variance")
+    run = est.run(nothing, nothing[:, 0], outputs=names, missing="skip")
+    return {name: getattr(run, name)[0] for name in names}

@@ -37,7 +37,7 @@ const SLOW: f64 = 1.0;
 /// The most members of a bank.
 const MOST: usize = 1024;
 
-pub(super) fn bank<T: Number>(settings: &BankSettings<'_>) -> Result<Bank<T>, Error> {
+pub(crate) fn bank<T: Number>(settings: &BankSettings<'_>) -> Result<Bank<T>, Error> {
     let BankSettings { common, members, mixer } = settings;
     if common.initial_covariance.is_none() && common.initial_theta.is_some() {
         return Err(Error::unsupported(

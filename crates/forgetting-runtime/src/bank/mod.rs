@@ -1,6 +1,6 @@
 //! A bank of estimators, of any type.
 
-mod make;
+pub(crate) mod make;
 mod record;
 
 pub use make::{BankSettings, Member};
@@ -64,11 +64,7 @@ impl Bank {
     /// # Errors
     /// [`Error::Core`] says what is wrong with the bytes.
     pub fn from_bytes(state: &[u8]) -> Result<Self, Error> {
-        let number_type = match bank_number_type(state)? {
-            8 => NumberType::F64,
-            _ => NumberType::F32,
-        };
-        Ok(Self { typed: make!(number_type, T => bank::Bank::<T>::from_bytes(state)?) })
+        Ok(Self { typed: make!(saved_type(state)?, T => bank::Bank::<T>::from_bytes(state)?) })
     }
 
     /// The bank, configuration and state, as bytes: portable, versioned and checked.
@@ -235,6 +231,14 @@ impl Bank {
     pub fn mixer(&self) -> Choice {
         each!(&self.typed, bank => Choice::mixer(bank.mixer()))
     }
+}
+
+/// The number type of a saved bank.
+pub(crate) fn saved_type(state: &[u8]) -> Result<NumberType, Error> {
+    Ok(match bank_number_type(state)? {
+        8 => NumberType::F64,
+        _ => NumberType::F32,
+    })
 }
 
 /// θ, the m numbers of the first parameter first.

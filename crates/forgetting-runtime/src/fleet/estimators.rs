@@ -1,5 +1,6 @@
 //! Streams that are an estimator each: any rule, rate and weighting.
 
+use super::one_by_one::{nothing, one_by_one, outcome, Outcome};
 use crate::missing::is_missing;
 use crate::number::Number;
 use forgetting::fleet::{Outputs, Samples, REFUSED};
@@ -16,41 +17,17 @@ pub fn update<T: Number>(
     samples: Samples<'_, T>,
     outputs: &mut Outputs<'_, T>,
 ) -> usize {
-    let n = samples.phi.len() / streams.len().max(1);
-    let mut used = 0;
-    for (i, estimator) in streams.iter_mut().enumerate() {
-        let (phi, y) = (&samples.phi[i * n..(i + 1) * n], &samples.y[i..=i]);
-        let (error, leverage, code) = match samples.mask.is_none_or(|mask| mask[i]) {
-            true => take(estimator, elapsed, phi, y),
-            false => nothing(Skip::Missing.code()),
-        };
-        used += usize::from(code == 0);
-        put(&mut outputs.error, i, error);
-        put(&mut outputs.leverage, i, leverage);
-        put(&mut outputs.skipped, i, code);
-    }
-    used
+    one_by_one(samples, outputs, |i, phi, y| take(&mut streams[i], elapsed, phi, y))
 }
 
 /// One stream's sample.
-fn take<T: Number>(estimator: &mut AnyEstimator<T>, elapsed: T, phi: &[T], y: &[T]) -> (T, T, u8) {
+fn take<T: Number>(estimator: &mut AnyEstimator<T>, elapsed: T, phi: &[T], y: &[T]) -> Outcome<T> {
     if is_missing(phi, y) {
         return nothing(Skip::Missing.code());
     }
     match estimator.update_after(elapsed, phi, y, Noise::Unit) {
-        Ok(update) => (update.error[0], update.leverage, update.skipped.map_or(0, Skip::code)),
+        Ok(update) => outcome(update.error, update.leverage, update.skipped),
         Err(_) => nothing(REFUSED),
-    }
-}
-
-fn nothing<T: Number>(code: u8) -> (T, T, u8) {
-    let nan = T::from_f64(f64::NAN);
-    (nan, nan, code)
-}
-
-fn put<T>(numbers: &mut Option<&mut [T]>, index: usize, number: T) {
-    if let Some(numbers) = numbers {
-        numbers[index] = number;
     }
 }
 

@@ -1,14 +1,14 @@
 //! A fleet from its settings.
 
-use super::streams::{like, Streams};
+use super::streams::Streams;
 use crate::choice::has_function;
 use crate::configure;
 use crate::error::Error;
 use crate::number::{Number, View};
 use crate::settings::Settings;
 use crate::shape::either;
-use forgetting::rates::Rate;
-use forgetting::{AnyEstimator, Dynamic, Memory, Prior};
+use forgetting::rates::{AnyRate, Constant, Rate};
+use forgetting::{AnyEstimator, Dynamic, Estimator, Memory, Prior};
 use std::borrow::Cow;
 
 /// A number of streams.
@@ -150,4 +150,21 @@ fn check_factor<T: Number>(settings: &Settings<'_>, fresh: &AnyEstimator<T>) -> 
         return Err(Error::unsupported(reason));
     }
     Ok(())
+}
+
+/// An estimator like `fresh` with another prior or another forgetting factor.
+///
+/// # Errors
+/// [`forgetting::Error::Value`] names a forgetting factor that is out of range.
+fn like<T: Number>(
+    fresh: &AnyEstimator<T>,
+    forgetting_factor: Option<T>,
+    prior: Prior<Dynamic<T>>,
+) -> Result<AnyEstimator<T>, forgetting::Error> {
+    let rate = match forgetting_factor {
+        Some(factor) => AnyRate::Constant(Constant::new(factor)?),
+        None => fresh.rate().clone(),
+    };
+    let (rule, weighting) = (fresh.rule().clone(), fresh.weighting().clone());
+    Ok(Estimator::new(rule, rate, weighting, prior).with_gate(fresh.gate().clone()))
 }

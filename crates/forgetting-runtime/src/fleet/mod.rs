@@ -1,42 +1,73 @@
 //! Many streams, of any type.
 
+mod banks;
 mod estimators;
 mod health;
 mod make;
+mod many;
+mod one_by_one;
+mod saved;
+mod stream;
 mod streams;
 mod threads;
 mod update;
 
 pub use health::StreamHealth;
+pub use stream::Stream;
 pub use update::FleetUpdate;
 
+use crate::bank::{self, Bank, BankSettings};
 use crate::choice::Description;
 use crate::error::Error;
-use crate::estimator::{covariance, saved_type, Estimator};
+use crate::estimator::{covariance, Estimator};
 use crate::number::{both, each, make, map, ByType, Family, Number};
 use crate::number::{Array, Elements, NumberType, View};
 use crate::settings::Settings;
-use forgetting::fleet::{check_kind, check_stream};
-use forgetting::saved::least_length;
-use forgetting::AnyEstimator;
-use make::check_functions;
+use banks::Banks;
+use many::Many;
 use streams::Streams;
 
-/// Streams, with the number type left open.
-struct Fleets;
+/// Streams that are estimators, with the number type left open.
+struct OfEstimators;
 
-impl Family for Fleets {
+impl Family for OfEstimators {
     type Of<T: Number> = Streams<T>;
 }
 
+/// Streams that are banks.
+struct OfBanks;
+
+impl Family for OfBanks {
+    type Of<T: Number> = Banks<T>;
+}
+
+/// Streams of either kind.
+#[derive(Clone)]
+enum Kept {
+    Estimators(ByType<OfEstimators>),
+    Banks(ByType<OfBanks>),
+}
+
+/// Evaluates an expression for the streams, whatever they are.
+macro_rules! kept {
+    ($kept:expr, $streams:ident => $expression:expr) => {
+        match $kept {
+            Kept::Estimators(typed) => each!(typed, $streams => $expression),
+            Kept::Banks(typed) => each!(typed, $streams => $expression),
+        }
+    };
+}
+
+use kept;
+
 /// Many independent streams of the same number of parameters and the same rule, updated together.
 ///
-/// Each stream is an [`Estimator`] of one row and one target of its own; a fleet takes a sample of
+/// Each stream is an [`Estimator`] or a [`Bank`] of one row and one target of its own; a fleet takes a sample of
 /// each in one call. What a stream cannot use is reported and leaves that stream alone,
 /// bit for bit: one bad sample does not stop the others.
 #[derive(Clone)]
 pub struct Fleet {
-    typed: ByType<Fleets>,
+    kept: Kept,
     /// none for what suits the machine
     threads: Option<usize>,
 }
@@ -59,34 +90,43 @@ impl Fleet {
         let typed = make!(settings.number_type, T => {
             make::streams::<T>(count, settings, forgetting_factor)?
         });
-        Ok(Self { typed, threads: None })
+        Ok(Self { kept: Kept::Estimators(typed), threads: None })
     }
 
-    /// The fleet of which [`Fleet::fresh_state`] and [`Fleet::state`] gave these states.
+    /// `count` streams, from 0, each a bank as `settings` say; their initial covariance and estimate are the
+    /// same for all.
     ///
     /// # Errors
-    /// [`Error`] says what is wrong with a state, [`Error::Stream`] with which.
-    pub fn from_states(fresh: &[u8], states: &[&[u8]]) -> Result<Self, Error> {
-        let typed = make!(saved_type(fresh)?, T => restore::<T>(fresh, states)?);
-        Ok(Self { typed, threads: None })
+    /// [`Error`] names the parameter, its value and what is allowed.
+    pub fn of_banks(count: i64, settings: &BankSettings<'_>) -> Result<Self, Error> {
+        let count = make::read_count(count)?;
+        let typed = make!(settings.common.number_type, T => {
+            let mut banks = Banks::of(bank::make::bank::<T>(settings)?)?;
+            banks.grow(count)?;
+            banks
+        });
+        Ok(Self { kept: Kept::Banks(typed), threads: None })
     }
 
     /// How many streams there are.
     #[must_use]
     pub fn count(&self) -> usize {
-        each!(&self.typed, streams => streams.count())
+        kept!(&self.kept, streams => streams.count())
     }
 
     /// n
     #[must_use]
     pub fn parameters(&self) -> usize {
-        each!(&self.typed, streams => streams.parameters())
+        kept!(&self.kept, streams => streams.parameters())
     }
 
     /// The type of its numbers.
     #[must_use]
     pub fn number_type(&self) -> NumberType {
-        self.typed.number_type()
+        match &self.kept {
+            Kept::Estimators(typed) => typed.number_type(),
+            Kept::Banks(typed) => typed.number_type(),
+        }
     }
 
     /// The threads that an update runs on; none for all cores where that is faster than one. The
@@ -101,16 +141,22 @@ impl Fleet {
         self.threads = threads;
     }
 
-    /// The rule, rate, weighting and gate of a new stream by name, each with its parameters.
+    /// The rule, rate, weighting and gate of a new stream by name, each with its parameters; none where
+    /// streams are banks.
     #[must_use]
-    pub fn describe(&self) -> Description {
-        each!(&self.typed, streams => Description::of(streams.fresh()))
+    pub fn describe(&self) -> Option<Description> {
+        match &self.kept {
+            Kept::Estimators(typed) => {
+                Some(each!(typed, streams => Description::of(streams.fresh())))
+            }
+            Kept::Banks(_) => None,
+        }
     }
 
     /// λ of each stream, (count,); none where it is not constant.
     #[must_use]
     pub fn forgetting_factor(&self) -> Option<Array> {
-        each!(&self.typed, streams => {
+        kept!(&self.kept, streams => {
             streams.forgetting_factor().map(|factors| Number::array(factors, &[streams.count()]))
         })
     }
@@ -118,26 +164,26 @@ impl Fleet {
     /// θ of each stream, (count, n).
     #[must_use]
     pub fn theta(&self) -> Array {
-        each!(&self.typed, streams => Number::array(streams.theta(), &streams.shape()))
+        kept!(&self.kept, streams => Number::array(streams.theta(), &streams.shape()))
     }
 
     /// The diagonal of P of each stream, (count, n), in units of 1/φ².
     #[must_use]
     pub fn variance(&self) -> Array {
-        each!(&self.typed, streams => Number::array(streams.variance(), &streams.shape()))
+        kept!(&self.kept, streams => Number::array(streams.variance(), &streams.shape()))
     }
 
     /// Samples used by each stream since its start, (count,).
     #[must_use]
     pub fn samples(&self) -> Array {
-        let samples = each!(&self.typed, streams => streams.samples());
+        let samples = kept!(&self.kept, streams => streams.samples());
         Array { shape: vec![samples.len()], elements: Elements::I64(samples) }
     }
 
     /// How far each estimate can be trusted now, in O(n) a stream.
     #[must_use]
     pub fn health(&self) -> StreamHealth {
-        each!(&self.typed, streams => streams.health())
+        kept!(&self.kept, streams => streams.health())
     }
 
     /// P of a stream, (n, n), in units of 1/φ².
@@ -146,7 +192,12 @@ impl Fleet {
     /// [`Error::NoStream`].
     pub fn covariance(&self, stream: i64) -> Result<Array, Error> {
         let stream = self.position(stream)?;
-        each!(&self.typed, streams => covariance(&streams.get(stream)))
+        match &self.kept {
+            Kept::Estimators(typed) => each!(typed, streams => covariance(&streams.get(stream))),
+            Kept::Banks(typed) => {
+                Ok(Bank { typed: map!(typed, banks => banks.get(stream)) }.covariance())
+            }
+        }
     }
 
     /// φθ of each stream, (count,), for `phi` (count, n).
@@ -154,7 +205,7 @@ impl Fleet {
     /// # Errors
     /// [`Error::Shape`] names `phi`.
     pub fn predict(&self, phi: View<'_>) -> Result<Array, Error> {
-        each!(&self.typed, streams => update::predict(streams, phi))
+        kept!(&self.kept, streams => update::predict(&**streams, phi))
     }
 
     /// Takes a sample of each stream: `phi` (count, n), `y` (count,). A stream has none where
@@ -185,8 +236,8 @@ impl Fleet {
     ) -> Result<FleetUpdate, Error> {
         let outputs = outputs.unwrap_or(&FleetUpdate::DEFAULT_OUTPUTS);
         let threads = self.threads;
-        each!(&mut self.typed, streams => {
-            update::update(streams, samples, elapsed, outputs, threads)
+        kept!(&mut self.kept, streams => {
+            update::update(&mut **streams, samples, elapsed, outputs, threads)
         })
     }
 
@@ -196,7 +247,7 @@ impl Fleet {
     /// [`Error::Shape`] names `mask`.
     pub fn reset(&mut self, mask: Option<&[bool]>) -> Result<(), Error> {
         update::check_mask(mask, self.count())?;
-        each!(&mut self.typed, streams => streams.reset(mask));
+        kept!(&mut self.kept, streams => streams.reset(mask));
         Ok(())
     }
 
@@ -211,7 +262,7 @@ impl Fleet {
             return Err(forgetting::Error::value("count", count as f64, allowed).into());
         }
         let count = make::read_count(count)?;
-        Ok(each!(&mut self.typed, streams => streams.grow(count))?)
+        Ok(kept!(&mut self.kept, streams => streams.grow(count))?)
     }
 
     /// Adds copies of the streams of another fleet of the same parameters, rule, weighting, gate
@@ -220,51 +271,57 @@ impl Fleet {
     /// # Errors
     /// [`Error`] says what differs; nothing has changed.
     pub fn append(&mut self, other: &Self) -> Result<(), Error> {
-        let appended = both!(&mut self.typed, &other.typed; streams, others => {
-            check_kind(streams.fresh(), others.fresh())?;
-            let first = streams.count();
-            streams.grow(others.count())?;
-            (0..others.count()).try_for_each(|i| streams.put(first + i, others.get(i)))
-        });
+        let appended = match (&mut self.kept, &other.kept) {
+            (Kept::Estimators(own), Kept::Estimators(others)) => {
+                both!(own, others; streams, others => streams.append(others))
+            }
+            (Kept::Banks(own), Kept::Banks(others)) => {
+                both!(own, others; streams, others => streams.append(others))
+            }
+            _ => return Err(self.other_kind()),
+        };
         Ok(appended.ok_or_else(other_type)??)
     }
 
-    /// A copy of a stream, as an estimator that goes on from there.
+    /// A copy of a stream, as an estimator or a bank that goes on from there.
     ///
     /// # Errors
     /// [`Error::NoStream`].
-    pub fn get(&self, stream: i64) -> Result<Estimator, Error> {
+    pub fn get(&self, stream: i64) -> Result<Stream, Error> {
         let stream = self.position(stream)?;
-        Ok(Estimator::of(map!(&self.typed, streams => streams.get(stream))))
+        Ok(match &self.kept {
+            Kept::Estimators(typed) => {
+                Stream::Estimator(Estimator::of(map!(typed, streams => streams.get(stream))))
+            }
+            Kept::Banks(typed) => {
+                Stream::Bank(Bank { typed: map!(typed, streams => streams.get(stream)) })
+            }
+        })
     }
 
-    /// Puts a copy of `estimator` in the place of a stream.
+    /// Puts `new` in the place of a stream.
     ///
     /// # Errors
     /// [`Error::NoStream`], or [`Error`] says what differs; nothing has changed.
-    pub fn put(&mut self, stream: i64, estimator: &Estimator) -> Result<(), Error> {
+    pub fn put(&mut self, stream: i64, new: impl Into<Stream>) -> Result<(), Error> {
         let stream = self.position(stream)?;
-        let put = both!(&mut self.typed, &estimator.typed; streams, estimator => {
-            streams.put(stream, estimator.as_ref().clone())
-        });
+        let put = match (&mut self.kept, new.into()) {
+            (Kept::Estimators(own), Stream::Estimator(new)) => {
+                both!(own, new.typed; streams, new => streams.put(stream, *new))
+            }
+            (Kept::Banks(own), Stream::Bank(new)) => {
+                both!(own, new.typed; streams, new => streams.put(stream, *new))
+            }
+            _ => return Err(self.other_kind()),
+        };
         Ok(put.ok_or_else(other_type)??)
     }
 
-    /// The state of a new stream, as [`Estimator::to_bytes`] says it.
-    ///
-    /// # Errors
-    /// Those of [`Estimator::to_bytes`].
-    pub fn fresh_state(&self) -> Result<Vec<u8>, Error> {
-        Ok(each!(&self.typed, streams => streams.fresh().to_bytes())?)
-    }
-
-    /// The state of a stream, as [`Estimator::to_bytes`] says it.
-    ///
-    /// # Errors
-    /// [`Error::NoStream`], and those of [`Estimator::to_bytes`].
-    pub fn state(&self, stream: i64) -> Result<Vec<u8>, Error> {
-        let stream = self.position(stream)?;
-        Ok(each!(&self.typed, streams => streams.get(stream).to_bytes())?)
+    fn other_kind(&self) -> Error {
+        Error::unsupported(match self.kept {
+            Kept::Estimators(_) => "a stream of this fleet is one estimator, not a bank of them",
+            Kept::Banks(_) => "a stream of this fleet is a bank, not one estimator",
+        })
     }
 
     /// Where `stream` is, counted from the end if negative.
@@ -280,23 +337,4 @@ impl Fleet {
 
 fn other_type() -> Error {
     Error::unsupported("a stream has the dtype of its fleet")
-}
-
-/// Streams of these states.
-fn restore<T: Number>(fresh: &[u8], states: &[&[u8]]) -> Result<Streams<T>, Error> {
-    let mut streams = Streams::of(AnyEstimator::<T>::from_bytes(fresh)?);
-    check_stream(streams.fresh())?;
-    check_functions(streams.fresh())?;
-    // before there is room for as many: all are of the same sizes
-    let least = least_length(streams.fresh());
-    if let Some(stream) = states.iter().position(|state| state.len() < least) {
-        let error = forgetting::Error::State { reason: "it is truncated" };
-        return Err(Error::Stream { stream, error });
-    }
-    streams.grow(states.len())?;
-    for (stream, state) in states.iter().enumerate() {
-        let estimator = AnyEstimator::from_bytes(state);
-        streams.put(stream, estimator.map_err(|error| Error::Stream { stream, error })?)?;
-    }
-    Ok(streams)
 }

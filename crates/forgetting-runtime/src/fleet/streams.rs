@@ -1,14 +1,14 @@
 //! The streams of a fleet: in blocks of lanes where the rule has a form for it, else an estimator
 //! each.
 
+use super::estimators;
 use super::health::StreamHealth;
-use super::{estimators, threads};
 use crate::configure::check_copies;
 use crate::estimator::extremes;
 use crate::number::{Array, Elements, Number};
-use forgetting::fleet::{check_kind, Fleet, Outputs, Part, Samples};
-use forgetting::rates::{AnyRate, Constant, Rate};
-use forgetting::{AnyEstimator, Dynamic, Error, Estimator, Memory, Prior};
+use forgetting::fleet::{check_kind, Fleet};
+use forgetting::rates::Rate;
+use forgetting::{AnyEstimator, Error, Memory};
 
 /// Streams of the same sizes, rule, rate and weighting.
 #[derive(Clone)]
@@ -51,11 +51,6 @@ impl<T: Number> Streams<T> {
         self.fresh().prior().memory().parameters()
     }
 
-    /// (count, n)
-    pub fn shape(&self) -> [usize; 2] {
-        [self.count(), self.parameters()]
-    }
-
     /// Adds `count` new streams.
     ///
     /// # Errors
@@ -70,6 +65,17 @@ impl<T: Number> Streams<T> {
                 Ok(())
             }
         }
+    }
+
+    /// Adds copies of the streams of `others`.
+    ///
+    /// # Errors
+    /// Those of [`check_kind`], and [`Error::Memory`]; nothing has changed.
+    pub fn append(&mut self, others: &Self) -> Result<(), Error> {
+        check_kind(self.fresh(), others.fresh())?;
+        let first = self.count();
+        self.grow(others.count())?;
+        (0..others.count()).try_for_each(|i| self.put(first + i, others.get(i)))
     }
 
     /// A copy of the stream at `index`.
@@ -92,74 +98,6 @@ impl<T: Number> Streams<T> {
                 each[index] = estimator;
                 Ok(())
             }
-        }
-    }
-
-    /// Takes a sample for each stream, on as many cores as `threads` says; returns how many
-    /// streams used it.
-    ///
-    /// # Errors
-    /// [`Error::Memory`] when there is none for so many threads.
-    pub fn update(
-        &mut self,
-        samples: Samples<'_, T>,
-        outputs: Outputs<'_, T>,
-        threads: Option<usize>,
-    ) -> Result<usize, Error> {
-        let (count, n) = (self.count(), self.parameters());
-        match self {
-            Self::Blocks(fleet) => {
-                let parts = fleet.parts(threads::parts(threads, count * n * (n + 3) / 2))?;
-                let parts = parts.map(|part| (part.count(), part));
-                let work = |mut part: Part<'_, T>,
-                            samples: Samples<'_, T>,
-                            mut outputs: Outputs<'_, T>| {
-                    part.update(samples, &mut outputs)
-                };
-                Ok(threads::sum(parts, n, (samples, outputs), work))
-            }
-            Self::Estimators { each, .. } => {
-                let parts = threads::parts(threads, count * n * (n + 3) * estimators::EFFORT);
-                let parts = each.chunks_mut(count.div_ceil(parts).max(1));
-                let parts = parts.map(|part| (part.len(), part));
-                Ok(threads::sum(parts, n, (samples, outputs), |part, samples, mut outputs| {
-                    estimators::update(part, T::ONE, samples, &mut outputs)
-                }))
-            }
-        }
-    }
-
-    /// Takes a sample for each stream, so much time after its last one; returns how many used it.
-    ///
-    /// # Errors
-    /// None that a stream's own sample causes.
-    pub fn update_after(
-        &mut self,
-        elapsed: &[T],
-        mut samples: Samples<'_, T>,
-        mut outputs: Outputs<'_, T>,
-    ) -> Result<usize, Error> {
-        let (n, mut used) = (self.parameters(), 0);
-        for (i, &elapsed) in elapsed.iter().enumerate() {
-            let (sample, mut output);
-            (sample, samples) = samples.split_at(1, n);
-            (output, outputs) = outputs.split_at(1);
-            let mut stream = [self.get(i)];
-            used += estimators::update(&mut stream, elapsed, sample, &mut output);
-            let [stream] = stream;
-            self.put(i, stream)?;
-        }
-        Ok(used)
-    }
-
-    /// φθ of each stream.
-    ///
-    /// # Errors
-    /// Those of [`Estimator::predict`].
-    pub fn predict(&self, phi: &[T], prediction: &mut [T]) -> Result<(), Error> {
-        match self {
-            Self::Blocks(fleet) => fleet.predict(phi, prediction),
-            Self::Estimators { each, .. } => estimators::predict(each, phi, prediction),
         }
     }
 
@@ -262,21 +200,4 @@ impl<T: Number> Streams<T> {
             }
         }
     }
-}
-
-/// An estimator like `fresh` with another prior or another forgetting factor.
-///
-/// # Errors
-/// [`Error::Value`] names a forgetting factor that is out of range.
-pub fn like<T: Number>(
-    fresh: &AnyEstimator<T>,
-    forgetting_factor: Option<T>,
-    prior: Prior<Dynamic<T>>,
-) -> Result<AnyEstimator<T>, Error> {
-    let rate = match forgetting_factor {
-        Some(factor) => AnyRate::Constant(Constant::new(factor)?),
-        None => fresh.rate().clone(),
-    };
-    let (rule, weighting) = (fresh.rule().clone(), fresh.weighting().clone());
-    Ok(Estimator::new(rule, rate, weighting, prior).with_gate(fresh.gate().clone()))
 }

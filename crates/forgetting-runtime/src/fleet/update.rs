@@ -1,6 +1,6 @@
 //! A sample for every stream of a fleet.
 
-use super::streams::Streams;
+use super::many::Many;
 use crate::error::{check_shape, Error};
 use crate::number::{Array, Elements, Number, View};
 use forgetting::fleet::{Outputs, Samples};
@@ -39,13 +39,13 @@ impl FleetUpdate {
 
 /// Takes a sample for each stream.
 pub(super) fn update<T: Number>(
-    streams: &mut Streams<T>,
+    streams: &mut impl Many<T>,
     (phi, y, mask): (View<'_>, View<'_>, Option<&[bool]>),
     elapsed: Option<View<'_>>,
     outputs: &[&str],
     threads: Option<usize>,
 ) -> Result<FleetUpdate, Error> {
-    let count = streams.count();
+    let count = streams.shape()[0];
     if let Some(name) = outputs.iter().find(|name| !FleetUpdate::OUTPUTS.contains(name)) {
         let allowed = FleetUpdate::OUTPUTS.join(", ");
         return Err(Error::Output { name: (*name).into(), allowed });
@@ -63,10 +63,8 @@ pub(super) fn update<T: Number>(
         skipped: skipped.as_deref_mut(),
     };
     let samples = Samples { phi: &phi, y: &y, mask };
-    let used = match elapsed {
-        None => streams.update(samples, results, threads)?,
-        Some(elapsed) => streams.update_after(&read_elapsed(elapsed, count)?, samples, results)?,
-    };
+    let elapsed = elapsed.map(|elapsed| read_elapsed(elapsed, count)).transpose()?;
+    let used = streams.update(elapsed.as_deref(), samples, results, threads)?;
     Ok(FleetUpdate {
         error: error.map(|numbers| T::array(numbers, &[count])),
         leverage: leverage.map(|numbers| T::array(numbers, &[count])),
@@ -92,8 +90,8 @@ fn read_elapsed<T: Number>(elapsed: View<'_>, count: usize) -> Result<Vec<T>, Er
 }
 
 /// φθ of each stream.
-pub(super) fn predict<T: Number>(streams: &Streams<T>, phi: View<'_>) -> Result<Array, Error> {
-    let count = streams.count();
+pub(super) fn predict<T: Number>(streams: &impl Many<T>, phi: View<'_>) -> Result<Array, Error> {
+    let count = streams.shape()[0];
     let phi = read::<T>("phi", phi, &streams.shape())?;
     let mut prediction = vec![T::ZERO; count];
     streams.predict(&phi, &mut prediction)?;

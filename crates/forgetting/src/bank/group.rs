@@ -2,6 +2,7 @@
 
 use super::together::Lanes;
 use crate::estimator::AnyEstimator;
+use crate::memory::state::Visitor;
 use alloc::borrow::Cow;
 use alloc::vec::Vec;
 use forgetting_kernels::kernel::functions::add_scaled;
@@ -35,6 +36,11 @@ impl<T: Kernels> Group<T> {
             }
             None => Cow::Borrowed(&self.members),
         }
+    }
+
+    /// The members, of which what they are made of is up to date, but the state may be elsewhere.
+    pub fn made(&self) -> &[AnyEstimator<T>] {
+        &self.members
     }
 
     /// Shows every member as it is, with its number.
@@ -78,6 +84,25 @@ impl<T: Kernels> Group<T> {
     #[inline]
     pub fn in_lanes(&self) -> Option<&Lanes<T>> {
         self.lanes.as_ref().filter(|_| self.in_lanes)
+    }
+
+    /// Shows every number of all states to `visitor`: as they lie in lanes, if the members can run so,
+    /// else member after member.
+    pub fn visit(&mut self, visitor: &mut dyn Visitor<T>) {
+        match self.lanes() {
+            Some(lanes) => lanes.visit(visitor),
+            None => self.members.iter_mut().for_each(|member| member.visit(visitor)),
+        }
+    }
+
+    /// Whether P of each member that is believed has wound up.
+    pub fn windup(&self, weights: &[T]) -> bool {
+        match self.in_lanes() {
+            Some(lanes) => lanes.windup_now(weights),
+            None => self.members.iter().zip(weights).all(|(member, &weight)| {
+                weight == T::ZERO || member.factor().largest() > member.windup_limit()
+            }),
+        }
     }
 
     /// θ of the mixture of n parameters and one or more targets, in the units of the members.

@@ -122,6 +122,11 @@ impl<T: Kernels> Bank<T> {
         factor
     }
 
+    /// Whether P of each member that is believed has wound up.
+    pub fn windup(&self) -> bool {
+        self.state.members.windup(self.weights())
+    }
+
     /// Samples used since the start.
     pub fn samples(&self) -> u64 {
         self.state.mixture.samples()
@@ -160,6 +165,18 @@ impl<T: Kernels> Bank<T> {
             && state.mixture.is_sound()
             && state.clip.is_sound()
             && state.units.as_ref().is_none_or(State::is_sound)
+    }
+
+    /// Shows every number of the state to `visitor`, which may put others in their place: as many, and in
+    /// the same order, as those of any bank of the same members, mixer and units.
+    pub fn visit(&mut self, visitor: &mut dyn Visitor<T>) {
+        self.state.members.visit(visitor);
+        self.visit_own(visitor);
+    }
+
+    /// The members, of which only what they are made of is to be read.
+    pub(crate) fn made(&self) -> &[AnyEstimator<T>] {
+        self.state.members.made()
     }
 
     /// Puts members of the same kind in the place of those that it has.

@@ -1,6 +1,7 @@
 //! Members that forget in the same way and have few parameters: a member in each lane of the vectors.
 
 use crate::estimator::{AnyEstimator, Numbers};
+use crate::memory::state::Visitor;
 use crate::memory::Memory;
 use alloc::vec::Vec;
 use forgetting_kernels::kernel::form::Form;
@@ -116,6 +117,18 @@ impl<T: Kernels> Lanes<T> {
         }
     }
 
+    /// Shows every number of the members' states to `visitor`: each number of all of them, then
+    /// the next; then their counts.
+    pub fn visit(&mut self, visitor: &mut dyn Visitor<T>) {
+        let (count, length) = (self.samples.len(), Layout::new(self.parameters).length());
+        for (block, lines) in self.lines.chunks_exact_mut(length).enumerate() {
+            let own = (count - block * Line::<T>::LANES).min(Line::<T>::LANES);
+            lines.iter_mut().for_each(|line| visitor.reals(&mut line.0.as_mut()[..own]));
+        }
+        self.samples.iter_mut().for_each(|samples| visitor.whole(samples));
+        self.fill(count, length);
+    }
+
     /// Gives each member its state back.
     pub fn store(&self, members: &mut [AnyEstimator<T>]) {
         members.iter_mut().enumerate().for_each(|(i, member)| self.store_one(i, member));
@@ -184,6 +197,18 @@ impl<T: Kernels> Lanes<T> {
             all &= (largest[i] > limits[i]) | (weights[i] == T::ZERO);
         }
         all
+    }
+
+    /// Whether each member that is believed has wound up.
+    pub fn windup_now(&self, weights: &[T]) -> bool {
+        let layout = Layout::new(self.parameters);
+        let wound_up = |i: usize| {
+            let (block, lane) = (i / Line::<T>::LANES, i % Line::<T>::LANES);
+            let first = block * layout.length() + layout.diagonal();
+            let elements = self.lines[first..first + self.parameters].iter();
+            elements.map(|line| line.get(lane)).any(|d| d > self.limits[i])
+        };
+        weights.iter().enumerate().all(|(i, &weight)| weight == T::ZERO || wound_up(i))
     }
 
     /// θ of the mixture after that sample, n numbers in units of the members.

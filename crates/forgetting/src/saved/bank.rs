@@ -12,7 +12,7 @@
 //! | check | CRC-32 of all before it |
 
 use super::read::Reader;
-use super::write::Output;
+use super::write::{header, Output};
 use super::{unaltered, AnyEstimator, Error, Vec, MARK_OF_BANK as MARK};
 use crate::bank::Bank;
 use crate::memory::Dynamic;
@@ -32,19 +32,41 @@ impl<T: Kernels> Bank<T> {
         let mut output = Output::new(&mut keep);
         output.bytes(MARK);
         output.bytes(&[VERSION, T::BYTES as u8, u8::from(self.follows_data())]);
-        output.bytes(&(self.members().len() as u16).to_le_bytes());
-        for member in self.members().iter() {
+        let members = self.members();
+        output.bytes(&(members.len() as u16).to_le_bytes());
+        for member in members.iter() {
             let member = member.to_bytes()?;
             output.bytes(&(member.len() as u32).to_le_bytes());
             output.bytes(&member);
         }
-        let mixer = self.mixer();
-        output.choice(mixer.called(), &|each| {
-            mixer.describe(&mut |name, value| each(name, value));
-        })?;
+        self.write_mixer(&mut output)?;
         self.clone().visit_own(&mut output);
         output.finish();
         Ok(bytes)
+    }
+
+    /// What it is made of, all but the state: banks of which it is the same have states of the same kind.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] when a part of it is a function of the user's.
+    pub fn configuration(&self) -> Result<Vec<u8>, Error> {
+        let mut bytes = Vec::new();
+        let mut keep = |piece: &[u8]| bytes.extend_from_slice(piece);
+        let mut output = Output::new(&mut keep);
+        output.bytes(&[T::BYTES as u8, u8::from(self.follows_data())]);
+        for member in self.made() {
+            header(&mut output, member)?;
+            member.prior().clone().visit(&mut output);
+        }
+        self.write_mixer(&mut output)?;
+        Ok(bytes)
+    }
+
+    fn write_mixer(&self, output: &mut Output<'_>) -> Result<(), Error> {
+        let mixer = self.mixer();
+        output.choice(mixer.called(), &|each| {
+            mixer.describe(&mut |name, value| each(name, value));
+        })
     }
 
     /// The bank that [`Bank::to_bytes`] saved.
@@ -78,6 +100,11 @@ impl<T: Kernels> Bank<T> {
     }
 }
 
+/// Whether these are the bytes of a bank, and not of one estimator.
+pub fn is_bank(bytes: &[u8]) -> bool {
+    bytes.starts_with(MARK)
+}
+
 /// The bytes of a number in a saved bank: 4 or 8.
 ///
 /// # Errors
@@ -91,7 +118,7 @@ pub fn bank_number_type(bytes: &[u8]) -> Result<usize, Error> {
 
 /// The bytes without their check, if they are those of a bank and unaltered.
 fn checked(bytes: &[u8]) -> Result<&[u8], Error> {
-    if !bytes.starts_with(MARK) {
+    if !is_bank(bytes) {
         return Err(Error::State { reason: "it is not a saved bank of estimators" });
     }
     unaltered(bytes, VERSION)

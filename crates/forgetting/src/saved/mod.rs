@@ -43,7 +43,7 @@ pub(crate) use write::Output;
 #[cfg(feature = "alloc")]
 pub use crate::estimator::AnyEstimator;
 #[cfg(feature = "alloc")]
-pub use bank::bank_number_type;
+pub use bank::{bank_number_type, is_bank};
 
 /// The version of the format that is written, and the latest that is read.
 pub const VERSION: u8 = 2;
@@ -175,14 +175,39 @@ fn crc32(bytes: &[u8]) -> u32 {
 }
 
 /// The same before its last step, from where it was before these bytes.
+#[cfg(feature = "alloc")]
 fn crc32_of(check: u32, bytes: &[u8]) -> u32 {
-    let step = |crc: u32, &byte: &u8| {
-        (0..8).fold(crc ^ u32::from(byte), |crc, _| {
-            (crc >> 1) ^ (0xEDB8_8320 & (crc & 1).wrapping_neg())
-        })
-    };
+    let step = |crc: u32, &byte: &u8| (crc >> 8) ^ OF_BYTE[usize::from(crc as u8 ^ byte)];
     bytes.iter().fold(check, step)
 }
+
+/// The same without a table, which would be the larger part of what saving takes in firmware.
+#[cfg(not(feature = "alloc"))]
+fn crc32_of(check: u32, bytes: &[u8]) -> u32 {
+    bytes.iter().fold(check, |crc, &byte| eight_steps(crc ^ u32::from(byte)))
+}
+
+/// What the check makes of a byte, bit by bit.
+const fn eight_steps(mut crc: u32) -> u32 {
+    let mut bit = 0;
+    while bit < 8 {
+        crc = (crc >> 1) ^ (0xEDB8_8320 & (crc & 1).wrapping_neg());
+        bit += 1;
+    }
+    crc
+}
+
+/// The same of all bytes.
+#[cfg(feature = "alloc")]
+static OF_BYTE: [u32; 256] = {
+    let mut table = [0; 256];
+    let mut byte = 0;
+    while byte < 256 {
+        table[byte] = eight_steps(byte as u32);
+        byte += 1;
+    }
+    table
+};
 
 #[cfg(test)]
 mod tests {

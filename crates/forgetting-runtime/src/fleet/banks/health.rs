@@ -1,0 +1,28 @@
+//! How far the estimates of streams that are banks can be trusted.
+
+use super::Banks;
+use crate::fleet::health::StreamHealth;
+use crate::number::{Array, Elements, Number};
+
+impl<T: Number> Banks<T> {
+    /// What the health of each stream is made of. P of a bank is a sum and has no D of its own: the
+    /// elements of its diagonal bound its eigenvalues in the same way.
+    pub fn health(&self) -> StreamHealth {
+        let (n, count) = (self.parameters(), self.count);
+        let (mut largest, mut smallest) = (Vec::with_capacity(count), Vec::with_capacity(count));
+        let mut windup = Vec::with_capacity(count);
+        let mut variances = vec![T::ZERO; n];
+        self.each(|_, bank| {
+            bank.variances(&mut variances);
+            largest.push(variances.iter().fold(variances[0], |most, &p| most.max(p)));
+            smallest.push(variances.iter().fold(variances[0], |least, &p| least.min(p)));
+            windup.push(bank.windup());
+        });
+        StreamHealth {
+            windup: Array { shape: vec![count], elements: Elements::Bool(windup) },
+            samples: Array { shape: vec![count], elements: Elements::I64(self.samples()) },
+            largest: T::array(largest, &[count]),
+            smallest: T::array(smallest, &[count]),
+        }
+    }
+}
