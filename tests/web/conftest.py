@@ -57,11 +57,10 @@ class Playground:
 
     def open(self, path: Path) -> None:
         """Choose a file; wait until it is read or refused."""
-        self.page.evaluate("playground.found = null; playground.error = ''")
         self.page.set_input_files("#file", path)
         self.wait()
 
-    def wait(self, condition: str = "playground.found || playground.error") -> None:
+    def wait(self, condition: str = "!playground.waiting") -> None:
         """Until this holds; asked from here, as the page allows no text to be run as code."""
         deadline = time.monotonic() + 30
         while not self.ask(f"Boolean({condition})"):
@@ -94,8 +93,6 @@ class Playground:
         if factor is not None:
             page.fill("#factor-number", str(factor))
             page.press("#factor-number", "Enter")
-        page.wait_for_timeout(50)
-        self.ask("playground.found = null; playground.error = ''")
         page.dispatch_event("#kind", "change")
         self.wait()
 

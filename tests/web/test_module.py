@@ -118,6 +118,11 @@ REFUSED = {
     "estimator.run([1, 2, 3], [1, 2])": ("InvalidInput", ""),
     "estimator.run([1, 2, 3, 4], [1, NaN])": ("InvalidInput", "sample 1"),
     "estimator.run([1, 2], [1], { outputs: ['tetha'] })": ("InvalidInput", "tetha"),
+    "estimator.update(around(), 1)": ("InvalidInput", "phi has an array"),
+    "new fg.RLS(2, { rule: holding() })": ("InvalidInput", "rule has an object"),
+    "new fg.RLS(32768)": ("MemoryError", "memory"),
+    "new fg.Bank(2, { members: [null] })": ("InvalidInput", "members"),
+    "new fg.Bank(2, { members: [] })": ("InvalidInput", "members = 0"),
     "fg.RLS.from_bytes(new Uint8Array([1, 2, 3]))": ("InvalidInput", ""),
 }
 
@@ -128,6 +133,12 @@ def test_what_is_refused_changes_nothing_and_says_what_is_allowed(tmp_path):
     const estimator = new fg.RLS(2);
     estimator.update([1, 2], 3);
     const before = list(estimator.to_bytes());
+    const around = () => {{ const ring = []; ring.push(ring); return ring; }};
+    const holding = () => {{
+      const rule = {{ name: "covariance_resetting" }};
+      rule.rule = rule;
+      return rule;
+    }};
     const found = [{calls}].map(refusal);
     const same = JSON.stringify(list(estimator.to_bytes())) === JSON.stringify(before);
     console.log(JSON.stringify([found, same]));

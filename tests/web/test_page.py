@@ -89,7 +89,6 @@ def test_the_slider_moves_the_memory(playground):
         """() => {
             const slider = document.getElementById("factor");
             slider.value = 260;
-            playground.found = null;
             slider.dispatchEvent(new Event("input"));
         }"""
     )

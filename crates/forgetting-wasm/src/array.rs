@@ -19,35 +19,30 @@ pub fn read(parameter: &str, value: &JsValue) -> Result<Numbers, JsValue> {
         let shape = vec![numbers.len()];
         return Ok((numbers, shape));
     }
-    if !js_sys::Array::is_array(value) {
-        return Err(refused(parameter, value));
+    match js_sys::Array::is_array(value) {
+        true => nested(parameter, &js_sys::Array::from(value)),
+        false => Err(refused(parameter, value)),
     }
-    let array = js_sys::Array::from(value);
-    if array.iter().all(|element| element.as_f64().is_some()) {
-        let shape = vec![array.length() as usize];
-        return Ok((array.iter().filter_map(|element| element.as_f64()).collect(), shape));
-    }
-    nested(parameter, &array)
 }
 
-/// The numbers of a typed array.
+/// The numbers of a typed array, or of an array of nothing but numbers.
 fn flat(value: &JsValue) -> Option<Vec<f64>> {
     if let Some(array) = value.dyn_ref::<Float64Array>() {
         return Some(array.to_vec());
     }
-    let array = value.dyn_ref::<Float32Array>()?;
-    Some(array.to_vec().into_iter().map(f64::from).collect())
+    if let Some(array) = value.dyn_ref::<Float32Array>() {
+        return Some(array.to_vec().into_iter().map(f64::from).collect());
+    }
+    let array = js_sys::Array::is_array(value).then(|| js_sys::Array::from(value))?;
+    array.iter().map(|element| element.as_f64()).collect()
 }
 
 /// Rows of equal length.
 fn nested(parameter: &str, rows: &js_sys::Array) -> Result<Numbers, JsValue> {
     let (mut numbers, mut columns) = (Vec::new(), None);
     for row in rows.iter() {
-        let (row, shape) = match row.is_object() {
-            true => read(parameter, &row)?,
-            false => return Err(refused(parameter, &row)),
-        };
-        if shape.len() != 1 || *columns.get_or_insert(row.len()) != row.len() {
+        let row = flat(&row).ok_or_else(|| refused(parameter, &row))?;
+        if *columns.get_or_insert(row.len()) != row.len() {
             return Err(invalid(&format!("{parameter} has rows of different lengths")));
         }
         numbers.extend(row);

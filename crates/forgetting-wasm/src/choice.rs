@@ -14,6 +14,15 @@ const FACTOR: &str = "forgetting_factor";
 /// The choice that `value` says, and the forgetting factor in it, if it has one: of a rule in a rule
 /// it is that of both.
 fn read_with_factor(what: &str, value: &JsValue) -> Result<(Choice, Option<JsValue>), JsValue> {
+    read_at(what, value, true)
+}
+
+/// The same; a rule that is in another holds none itself.
+fn read_at(
+    what: &str,
+    value: &JsValue,
+    holds_another: bool,
+) -> Result<(Choice, Option<JsValue>), JsValue> {
     if let Some(name) = value.as_string() {
         return Ok((Choice::named(name), None));
     }
@@ -22,8 +31,8 @@ fn read_with_factor(what: &str, value: &JsValue) -> Result<(Choice, Option<JsVal
         match name.as_str() {
             "name" => choice.name = word(&format!("{what}.name"), &value)?,
             FACTOR if what == "rule" => factor = Some(value),
-            _ if value.is_object() && !is_array(&value) => {
-                let (inner, its_factor) = read_with_factor("rule", &value)?;
+            _ if holds_another && value.is_object() && !is_array(&value) => {
+                let (inner, its_factor) = read_at("rule", &value, false)?;
                 factor = factor.or(its_factor);
                 choice.parameters.push((name, inner.into()));
             }

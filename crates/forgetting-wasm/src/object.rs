@@ -61,6 +61,7 @@ pub fn word(parameter: &str, value: &JsValue) -> Result<String, JsValue> {
 pub fn shown(value: &JsValue) -> String {
     match (value.as_string(), value.as_f64(), value.as_bool()) {
         (Some(word), ..) => format!("{word:?}"),
+        (_, Some(number), _) if number.abs() >= 1e15 => format!("{number:e}"),
         (_, Some(number), _) => number.to_string(),
         (.., Some(yes)) => yes.to_string(),
         _ if value.is_undefined() => "undefined".into(),

@@ -121,7 +121,11 @@ pub fn view<'a>(
     View::new(parameter, numbers.as_slice(), shape).map_err(raise)
 }
 
+/// One word or several.
 fn words(parameter: &str, value: &JsValue) -> Result<Vec<String>, JsValue> {
+    if !js_sys::Array::is_array(value) {
+        return Ok(vec![word(parameter, value)?]);
+    }
     js_sys::Array::from(value).iter().map(|each| word(parameter, &each)).collect()
 }
 

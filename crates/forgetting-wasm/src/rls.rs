@@ -16,7 +16,7 @@ use wasm_bindgen::prelude::*;
 ///
 /// Arrays go in as `Float64Array`, `Float32Array` or arrays of numbers, nested or one row after the
 /// other, and come out as `Float64Array`, one row after the other. Whatever is refused is an `Error` whose name is
-/// "InvalidInput" or "NumericalRange", and has changed nothing.
+/// "InvalidInput", "NumericalRange" or "MemoryError", and has changed nothing.
 #[wasm_bindgen]
 #[allow(clippy::upper_case_acronyms, reason = "the name in every language")]
 pub struct RLS {

@@ -64,7 +64,7 @@ export interface RunOptions {
   /** When samples were taken, (T,), not decreasing; one unit each, if not given. */
   time?: Numbers;
   /** Names of the results that are kept. */
-  outputs?: Output[];
+  outputs?: Output | Output[];
 }
 
 export type Output =

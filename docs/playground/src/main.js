@@ -13,7 +13,7 @@ import { decode, read } from "./table.js";
 import { judge } from "./verdict.js";
 import { Story } from "./windup.js";
 
-const page = { found: null, story: null, error: "" };
+const page = { found: null, story: null, error: "", waiting: false };
 window.playground = page; // for tests, and for the curious
 
 let model, rule, waiting;
@@ -21,6 +21,7 @@ let model, rule, waiting;
 /** Computes soon; changes that follow each other at once are one. */
 function changed() {
   clearTimeout(waiting);
+  page.waiting = true;
   waiting = setTimeout(compute, 30);
 }
 
@@ -30,10 +31,10 @@ function compute() {
     const found = identify(samplesOf(chosen), rule.chosen());
     found.outputName = chosen.output.name;
     found.judgement = judge(found);
-    Object.assign(page, { found, error: "" });
+    Object.assign(page, { found, error: "", waiting: false });
     show(found, found.judgement);
   } catch (error) {
-    Object.assign(page, { found: null, error: error.message });
+    Object.assign(page, { found: null, error: error.message, waiting: false });
     refuse(error);
   }
 }
@@ -48,11 +49,12 @@ function open(table, name, wanted) {
 }
 
 async function openFile(file) {
+  clearTimeout(waiting); // what was asked of the table before is not shown beside the new one
+  page.waiting = true;
   try {
     open(read(decode(new Uint8Array(await file.arrayBuffer()))), file.name);
   } catch (error) {
-    clearTimeout(waiting); // what was found before is not shown beside it
-    Object.assign(page, { found: null, error: `${file.name}: ${error.message}` });
+    Object.assign(page, { found: null, error: `${file.name}: ${error.message}`, waiting: false });
     refuse(new Error(page.error));
   }
 }
