@@ -26,6 +26,7 @@ from forgetting.demo.battery import RECORD
 from .pages import MARK, PAGES, ROOT, Block, blocks
 
 NOT_RUN = {
+    "firmware.md": ["make -C crates/forgetting-c install"],
     "streams.md": ["forgetting stream /var/log", "mosquitto_sub", "kcat", "socat"],
 }
 """What is marked on the pages, by page and first words."""

@@ -87,7 +87,8 @@ def spoken(seconds: float) -> str:
     ('4 ms', '12 s', '1.5 h', '2.3 days', '740 days')
     """
     size, unit = unit_for(seconds)
-    return f"{brief(seconds / size, 2)} {unit}"
+    two_digits = float(f"{seconds / size:.2g}")
+    return f"{brief(two_digits)} {unit}"
 
 
 def unit_for(seconds: float) -> tuple[float, str]:
