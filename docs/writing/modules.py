@@ -109,6 +109,8 @@ DATA = {
     "Severity": "How much a finding weighs: a word, one of those that `Finding` lists.",
 }
 """What is neither a class nor a function, in a sentence."""
+DESCRIBED = ("spark",)
+"""Modules that cannot be imported without a Java runtime; a page by hand says what they offer."""
 INTERNAL = (
     "_core",
     "choice",

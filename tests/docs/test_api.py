@@ -2,21 +2,32 @@
 
 from __future__ import annotations
 
+import ast
 import importlib
 import pkgutil
 
 import pytest
 from writing.api import entry, page
-from writing.modules import CLASSES, INTERNAL, MODULES
+from writing.modules import CLASSES, DESCRIBED, INTERNAL, MODULES
 
 import forgetting
+
+from .conftest import ROOT
 
 
 def test_every_module_has_a_page_or_is_internal():
     found = {module.name for module in pkgutil.iter_modules(forgetting.__path__)} - {"__main__"}
     paged = {module.name.partition(".")[2] for module in MODULES} - {""}
-    assert found == paged | set(INTERNAL)
-    assert not paged & set(INTERNAL)
+    assert found == paged | set(INTERNAL) | set(DESCRIBED)
+    assert not paged & {*INTERNAL, *DESCRIBED}
+
+
+@pytest.mark.parametrize("name", DESCRIBED)
+def test_a_module_without_a_page_is_described_by_hand(name):
+    text = (ROOT / "docs" / f"{name}.md").read_text(encoding="utf-8")
+    source = (ROOT / "python" / "forgetting" / name / "__init__.py").read_text(encoding="utf-8")
+    public = ast.literal_eval(source.partition("__all__ = ")[2])
+    assert [each for each in public if each.islower() and each not in text] == []
 
 
 @pytest.mark.parametrize("module", MODULES, ids=lambda module: module.name)
