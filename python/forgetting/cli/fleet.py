@@ -51,8 +51,8 @@ RuleName = Annotated[
     str | None,
     options.option(
         options.RULE,
-        "Forgetting rule; 'forgetting rules' lists them. Without one, a bounded random walk; 'auto' "
-        "mixes walks of eight speeds and takes 1.5 kB a stream of four parameters.",
+        "Forgetting rule; 'forgetting rules' lists them. Without one, a bounded random walk; "
+        "'auto' mixes walks of eight speeds and takes 1.5 kB a stream of four parameters.",
         "--rule",
         "-r",
     ),
