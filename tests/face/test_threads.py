@@ -194,7 +194,7 @@ def test_ctrl_c_is_heard_in_half_a_second(make: str, call: str) -> None:
 
 def test_an_interrupted_record_leaves_the_estimator_as_it_was() -> None:
     est = fg.RLS(40, rule="variable_direction")
-    phi = np.random.default_rng(3).standard_normal((20000, 40))
+    phi = np.random.default_rng(3).standard_normal((200_000, 40))  # seconds
     before = est.to_bytes()
     threading.Timer(0.3, lambda: signal.raise_signal(signal.SIGINT)).start()
     with pytest.raises(KeyboardInterrupt):
