@@ -9,6 +9,7 @@ import pandas as pd
 import pytest
 
 import forgetting as fg
+from forgetting import plot
 from forgetting.cli import main
 from forgetting.record.identify import identify
 from forgetting.words.errors import RecordError
@@ -61,6 +62,8 @@ def test_estimates_are_those_of_the_class(frame):
     errors = found.parameters.set_index("parameter")["standard_error"]
     assert errors[["y(k-1)", "u(k-1)", "e(k-1)"]].notna().all()
     assert np.isnan(errors["offset"])
+    drawn = plot.prediction(found).lines
+    assert all(line.get_ydata().min() > 250 for line in drawn)
     table = found.estimates()
     assert table["measured:y"].tolist() == record["y"].tolist()
 

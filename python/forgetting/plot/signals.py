@@ -32,7 +32,7 @@ def prediction(found: Identification, output: int = 0, ax: Axes | None = None) -
     x, label = timeline(found)
     name = found.samples.outputs[output]
     ax.plot(
-        *thinning.line(x, found.samples.y[:, output]),
+        *thinning.line(x, found.samples.as_measured[:, output]),
         color=FAINT,
         lw=2.4,
         alpha=0.55,
@@ -46,7 +46,7 @@ def prediction(found: Identification, output: int = 0, ax: Axes | None = None) -
         label="predicted one step ahead",
     )
     typical = percentiles(settled(found, found.prediction, output), (1, 99))
-    limit_to(ax, np.concatenate([found.samples.y[:, output], typical]))
+    limit_to(ax, np.concatenate([found.samples.as_measured[:, output], typical]))
     ax.set_ylabel(literal(with_unit(name, found.unit(name))))
     label_time(ax, x, label)
     legend_above(ax, 2)
