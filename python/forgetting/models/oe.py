@@ -21,33 +21,15 @@ class OE(Polynomial):
         Coefficients of B and F, one order for all inputs or one for each.
     nk : int or sequence of int
         Delay of each input in samples; with 1, the default, u(k-1) is the newest that acts on y(k).
-    offset : bool, default False
-        Whether there is a constant: for data that are not deviations from an operating point.
-    rule : str or Rule, default "auto"
-        Forgetting rule, by name or as an object such as ``fg.Subspace(0.98)``; "auto" mixes rules
-        of all speeds, see `forgetting.Bank`.
-    method : {"prediction_error", "extended_least_squares"}
-        Whether the estimator is given the gradient of the prediction (Ljung 1999, section 10.3), or
-        what the prediction is made of, which costs less and converges only where C is close to 1.
-    weighting, gate : optional
-        As those of `RLS`.
-    initial_covariance : float or array_like, optional
-        P before the first sample, in units of 1/phi². If not given it follows the data, and units
-        do not matter.
-    dtype : str
-        "float64" or "float32", the precision of the estimator.
+    offset, rule, method, weighting, gate, initial_covariance, dtype
+        As those of `ARMAX`.
 
     Attributes
     ----------
-    theta_, covariance_, noise_variance_ : ndarray, ndarray, float
-        Estimate [b of each input, f of each input, offset],
-        P and the variance of e; the product of the latter two is the covariance of the estimate.
-    names_ : list of str
-        What each coefficient stands at, such as "y(k-1)".
-    estimator_ : RLS or Bank
-        The estimator itself.
-    samples_, used_, n_inputs_ : int
-        Rows seen since `fit`, how many of them were used, and the number of inputs.
+    theta_ : ndarray, shape (n,)
+        Estimate [b of each input, f of each input, offset].
+    covariance_, noise_variance_, names_, estimator_, samples_, used_, n_inputs_
+        As those of `ARMAX`.
 
     Examples
     --------
