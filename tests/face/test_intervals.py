@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import copy
+import importlib
+import os
 import pickle
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import forgetting as fg
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 @pytest.mark.parametrize("level", [0.5, 0.9, 0.99])
@@ -84,3 +89,27 @@ def test_it_pickles_and_copies():
         twin = copy.copy(intervals)
         assert np.array_equal(again.run(errors), twin.run(errors))
         assert again.coverage == twin.coverage
+
+
+RECORDS = Path(os.environ.get("FORGETTING_SHARED", ROOT.parent / "shared")) / "data"
+NOISELESS = 0.05
+"""Share of errors that are nothing but rounding, above which a record has no share to hold."""
+
+
+@pytest.mark.skipif(not RECORDS.is_dir(), reason="the measured records are not here")
+def test_measured_records_hold_the_level(monkeypatch):
+    monkeypatch.syspath_prepend(str(ROOT))
+    pytest.importorskip("pandas")
+    records = importlib.import_module("benchmarks.accuracy_records")
+    held = 0
+    for name, phi, y in records.of_folder(RECORDS, None):
+        n = phi.shape[1]
+        errors = fg.Bank(n).run(phi, y, outputs="error").error
+        if np.mean(np.abs(errors[3 * n :]) < 1e-9 * np.abs(y).max()) > NOISELESS:
+            continue
+        for level in (0.5, 0.9, 0.95):
+            intervals = fg.Intervals(level, skip=3 * n)
+            intervals.run(errors)
+            assert intervals.coverage == pytest.approx(level, abs=0.01), name
+        held += 1
+    assert held >= 8
