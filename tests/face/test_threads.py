@@ -196,7 +196,12 @@ def test_an_interrupted_record_leaves_the_estimator_as_it_was() -> None:
     est = fg.RLS(40, rule="variable_direction")
     phi = np.random.default_rng(3).standard_normal((200_000, 40))  # seconds
     before = est.to_bytes()
+    # a shell starts what runs in its background with the signal ignored
+    handler = signal.signal(signal.SIGINT, signal.default_int_handler)
     threading.Timer(0.3, lambda: signal.raise_signal(signal.SIGINT)).start()
-    with pytest.raises(KeyboardInterrupt):
-        est.run(phi, phi[:, 0])
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            est.run(phi, phi[:, 0])
+    finally:
+        signal.signal(signal.SIGINT, handler)
     assert est.to_bytes() == before
