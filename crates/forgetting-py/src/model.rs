@@ -124,12 +124,6 @@ impl SignalModel {
         output(py, self.0.lock(py)?.predict(record, from_rest).map_err(raise)?)
     }
 
-    /// Go to this theta (n,), or as far as C and F are stable.
-    fn set_theta(&self, py: Python<'_>, theta: &Bound<'_, PyAny>) -> PyResult<()> {
-        let theta = Input::read("theta", theta, NumberType::F64)?;
-        self.0.lock(py)?.set_theta(theta.view("theta")?).map_err(raise)
-    }
-
     /// The estimate, (n,): that of the estimator, or as far on the way there as C and F are stable.
     #[getter]
     fn theta<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {

@@ -4,7 +4,7 @@ mod learn;
 
 pub use learn::{Learner, MODEL_OUTPUTS};
 
-use crate::error::{check_shape, Error};
+use crate::error::Error;
 use crate::estimator::{GoOn, Run};
 use crate::number::{Array, Elements, View};
 use forgetting::models::{Method, Orders, Polynomial};
@@ -79,20 +79,6 @@ impl Model {
         }
         let prediction = learn::predict(&mut model, (inputs, y))?;
         Ok(Array { shape: vec![prediction.len()], elements: Elements::F64(prediction) })
-    }
-
-    /// Goes to this θ (n,), or as far as C and F are stable.
-    ///
-    /// # Errors
-    /// [`Error::Shape`] or [`Error::Core`] names `theta`.
-    pub fn set_theta(&mut self, theta: View<'_>) -> Result<(), Error> {
-        check_shape("theta", theta.shape(), &[self.orders().parameters()])?;
-        let theta = theta.numbers().to_f64();
-        if let Some(i) = theta.iter().position(|x| !x.is_finite()) {
-            return Err(forgetting::Error::value("theta", theta[i], "finite").at(i).into());
-        }
-        self.polynomial.set_theta(&theta);
-        Ok(())
     }
 
     /// Its orders.

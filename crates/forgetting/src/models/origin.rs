@@ -44,8 +44,8 @@ impl Origin {
         first.filter(|y| !y.is_nan()).unwrap_or(0.0)
     }
 
-    /// Makes the constant of θ that of signals measured from zero; with `sign` −1 the other way round.
-    pub fn express(&self, theta: &mut [f64], layout: &Layout, sign: f64) {
+    /// Makes the constant of θ that of signals measured from zero.
+    pub fn express(&self, theta: &mut [f64], layout: &Layout) {
         let Some(first) = &self.first else { return };
         let sum = |place: &core::ops::Range<usize>| theta[place.clone()].iter().sum::<f64>();
         let mut moved = self.of_output() * (1.0 - sum(&layout.a));
@@ -54,7 +54,7 @@ impl Origin {
                 moved -= u * sum(b) / (1.0 - sum(f));
             }
         }
-        theta[layout.constant.clone()].iter_mut().for_each(|own| *own += sign * moved);
+        theta[layout.constant.clone()].iter_mut().for_each(|own| *own += moved);
     }
 
     pub fn visit(&mut self, visitor: &mut dyn Visitor<f64>) {

@@ -118,15 +118,7 @@ impl Polynomial {
     /// The same with the constant of signals as they are, written to `theta`.
     pub fn express(&self, theta: &mut [f64]) {
         theta.copy_from_slice(&self.theta);
-        self.origin.express(theta, &self.layout, 1.0);
-    }
-
-    /// Goes to this θ, with the constant of signals as they are, or as far as C and F are stable.
-    pub fn set_theta(&mut self, theta: &[f64]) {
-        let mut own = theta.to_vec();
-        self.origin.express(&mut own, &self.layout, -1.0);
-        self.follow(&own);
-        self.set_filters();
+        self.origin.express(theta, &self.layout);
     }
 
     /// Samples so far.
