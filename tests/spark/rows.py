@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Iterable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pyarrow as pa
+from pyarrow import parquet
 
 from forgetting.tables import TableFleet
 
@@ -32,6 +36,16 @@ def table(rows: int = 3000, keys: int = 40, seed: int = 0, first: int = 0) -> pa
             "row": np.arange(rows) + 1_000_000 * first,
         }
     )
+
+
+def in_files(folder: Path, tables: Iterable[pa.Table]) -> str:
+    """Files of a stream, a second apart: Spark takes files by the time of their last change."""
+    folder.mkdir()
+    for number, each in enumerate(tables):
+        file = folder / f"{number:03}.parquet"
+        parquet.write_table(each, file)
+        os.utime(file, (START // 1_000_000 + number,) * 2)
+    return str(folder)
 
 
 def in_order(given: pa.Table) -> pa.Table:

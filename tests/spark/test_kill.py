@@ -12,7 +12,7 @@ import pyarrow as pa
 from cluster import below, command, executors, kill
 from driver import OUTPUTS, PARTITIONS
 from pyarrow import parquet
-from rows import SETTINGS, assert_equal_rows, assert_equal_states, table, told_alone
+from rows import SETTINGS, assert_equal_rows, assert_equal_states, in_files, table, told_alone
 
 from forgetting.spark import load, states
 from forgetting.tables import TableFleet
@@ -24,9 +24,7 @@ def test_each_row_once_whatever_is_killed(spark, tmp_path):
     day = table(40_000, keys=1500)
     hours = [table(3000, keys=1500, seed=k, first=40_000 * (k + 1)) for k in range(HOURS)]
     parquet.write_table(day, tmp_path / "day.parquet")
-    (tmp_path / "hours").mkdir()
-    for number, hour in enumerate(hours):
-        parquet.write_table(hour, tmp_path / "hours" / f"{number}.parquet")
+    in_files(tmp_path / "hours", hours)
 
     with Driver(tmp_path) as driver:
         driver.wait(lambda: some_tasks_are_done(tmp_path / "day"))

@@ -7,9 +7,16 @@ from typing import Any
 import pyarrow as pa
 import pytest
 from cluster import finish
-from pyarrow import parquet
 from pyspark.sql.functions import lit
-from rows import SETTINGS, assert_equal_rows, assert_equal_states, in_order, table, told_alone
+from rows import (
+    SETTINGS,
+    assert_equal_rows,
+    assert_equal_states,
+    in_files,
+    in_order,
+    table,
+    told_alone,
+)
 
 import forgetting as fg
 from forgetting.spark import stateful, states
@@ -19,14 +26,6 @@ from forgetting.tables import TableFleet
 OUTPUTS = ("prediction", "error", "skipped")
 DESIGN = {"by": "meter", "y": "y", "phi": ["u"], "time": "t", **SETTINGS}
 FILES, ROWS = 3, 1000
-
-
-def written(folder, tables) -> Any:
-    """Files that a stream reads one by one."""
-    folder.mkdir()
-    for number, each in enumerate(tables):
-        parquet.write_table(each, folder / f"{number:03}.parquet")
-    return str(folder)
 
 
 def rows_of(spark, folder) -> Any:
@@ -46,7 +45,7 @@ def follow(told, folder) -> pa.Table:
 def test_rows_as_they_come(spark, tmp_path):
     parts = [table(ROWS, seed=k, first=ROWS * k, keys=20) for k in range(FILES)]
     parts[2] = pa.concat_tables([parts[2], late(parts[0])])
-    source = written(tmp_path / "rows", parts)
+    source = in_files(tmp_path / "rows", parts)
     told = stateful(rows_of(spark, source), shards=3, outputs=OUTPUTS, keep="row", **DESIGN)
     found = follow(told, tmp_path)
     fleet = TableFleet("meter", "y", ["u"], time="t", **SETTINGS)
@@ -97,7 +96,7 @@ def test_rows_wait_for_those_before_them(spark, tmp_path):
     whole = in_order(table(FILES * ROWS, keys=20))
     mixed = [whole.take(pa.array(range(k, len(whole), FILES))) for k in range(FILES)]
     end = table(5, keys=1, first=10_000_000, seed=9)
-    source = written(tmp_path / "rows", [*mixed, end])
+    source = in_files(tmp_path / "rows", [*mixed, end])
     told = stateful(
         rows_of(spark, source), shards=3, delay="2 hours", outputs=OUTPUTS, keep="row", **DESIGN
     )
