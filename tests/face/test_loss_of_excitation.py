@@ -43,15 +43,43 @@ def test_subspace_holds_the_estimate(dtype):
 
 
 @pytest.mark.parametrize("dtype", ["float64", "float32"])
-def test_exponential_reports_windup_and_then_refuses(dtype):
+def test_exponential_reports_windup_and_lives_on(dtype):
     est, random = excited(fg.Exponential(0.98), dtype)
-    reported = False
-    with pytest.raises(fg.NumericalRange, match="covariance"):
-        for _ in range(100_000):
-            y = float(STUCK @ THETA + NOISE * random.normal())
-            before = est.to_bytes()
-            reported |= est.update(STUCK, y).windup
-            assert np.isfinite(est.theta).all()
-    assert reported
-    assert est.to_bytes() == before
+    (*_, last) = stuck(est, random, 100_000)
+    assert last.windup.all()
+    update = est.update(STUCK, STUCK @ THETA)
+    assert (update.forgetting_factor, update.rank) == (1.0, 0)
+    assert np.isfinite(est.theta).all()
     assert np.isfinite(est.covariance).all()
+    phi = random.normal(size=(200, 4))
+    est.run(phi, phi @ THETA + NOISE * random.normal(size=200))
+    np.testing.assert_allclose(est.theta, THETA, atol=0.05)
+    assert not est.update(phi[0], phi[0] @ THETA).windup
+
+
+FACTORS = {
+    each["name"]: {"forgetting_factor": 0.9} if each["forgetting_factor"] else {}
+    for each in fg.rules()
+    if each["name"] != "custom"
+}
+
+
+@pytest.mark.parametrize("prior", [{}, {"initial_covariance": 100.0}], ids=["data", "given"])
+@pytest.mark.parametrize("dtype", ["float64", "float32"])
+@pytest.mark.parametrize("rule", FACTORS)
+def test_every_rule_lives_through_silence(rule, dtype, prior):
+    """Silent until any growth of P by 0.9 a sample would have left the range; then all is new."""
+    random, silent = np.random.default_rng(3), 5000
+    est = fg.RLS(2, rule=rule, dtype=dtype, **FACTORS[rule], **prior)
+    excited = random.normal(size=1000)
+    x = np.concatenate([excited[:200], np.zeros(silent), excited[200:]])
+    phi = np.column_stack([np.ones_like(x), x])
+    y = 3.0 + 0.5 * x + NOISE * random.normal(size=len(x))
+    before = est.run(phi[: 200 + silent], y[: 200 + silent])
+    assert len(before.theta) == 200 + silent
+    assert np.isfinite(before.theta).all()
+    y[200 + silent :] -= 1.5 * excited[200:]
+    est.run(phi[200 + silent :], y[200 + silent :])
+    assert np.isfinite(est.covariance).all()
+    assert abs(est.theta[0] - 3.0) < 0.05
+    assert rule == "none" or abs(est.theta[1] + 1.0) < 0.25

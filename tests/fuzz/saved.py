@@ -92,7 +92,5 @@ def is_number(estimator: fg.RLS | fg.Bank) -> bool:
     """Whether θ and P are numbers, infinite where the units of the regressors leave no other."""
     with np.errstate(over="ignore", invalid="ignore"):
         units, theta, covariance = estimator.units, estimator.theta, estimator.covariance
-    if units is not None and not np.isfinite(units).all():
-        # A unit beyond the largest number is one that no regressor can have chosen.
-        return True
+    assert units is None or np.isfinite(units).all()
     return not np.isnan(theta).any() and not np.isnan(covariance).any()

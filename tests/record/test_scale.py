@@ -122,15 +122,16 @@ def test_compare_says_by_how_many_rows_factors_were_chosen(monkeypatch, tmp_path
     assert "on the 800 rows before" in " ".join(capsys.readouterr().out.split())
 
 
-def test_a_rule_that_leaves_the_range_of_numbers_is_refused_with_its_row(monkeypatch):
-    frame = pd.DataFrame({"x": [1.0] * 100 + [0.0] * 400, "y": [1.0] * 500})
+def test_numbers_beyond_all_range_are_refused_with_their_row(monkeypatch):
+    frame = pd.DataFrame({"x": [1.0] * 500, "y": [1.0] * 500})
+    frame.loc[400, "y"] = 1e200
     monkeypatch.setattr(samples.pieces, "__defaults__", (64,))
-    model = {"formula": "y ~ 0 + x", "forgetting_factor": 0.05}
+    model = {"formula": "y ~ 0 + x", "forgetting_factor": 0.5}
     found = comparing.compare(read(frame), ["exponential", "subspace"], **model)
-    assert [each.name for each in found.ranked] == ["subspace"]
-    with pytest.raises(fg.NumericalRange) as caught:
-        identify(frame, formula="y ~ 0 + x", rule=fg.Exponential(0.05))
-    assert found.refused == [f"exponential: {caught.value}"]
+    assert found.ranked == []
+    with pytest.raises(fg.NumericalRange, match="row 401: ") as caught:
+        identify(frame, formula="y ~ 0 + x", rule=fg.Exponential(0.5))
+    assert found.refused == [f"{name}: {caught.value}" for name in ("exponential", "subspace")]
 
 
 def test_compare_takes_a_model_without_a_constant(tmp_path, capsys):

@@ -136,9 +136,17 @@ def test_a_rate_is_proposed_where_it_pays():
     assert found.rest.error("tuned") < plain.rest.error("tuned")
 
 
-def test_a_choice_that_fails_on_the_rest_is_told():
+def test_a_choice_that_fails_on_the_rest_is_told(monkeypatch):
     phi, y = drifting(6000, 2, drift=0.5)
-    phi[4000:], y[4000:] = 0.0, 0.0
+    errors = Candidate.errors
+
+    def fail(candidate, problem, stop=None):
+        chosen = candidate.rule is not None and candidate.rule.about["name"] == "exponential"
+        if stop is None and chosen:
+            raise fg.NumericalRange("sample 5000: too large")
+        return errors(candidate, problem, stop)
+
+    monkeypatch.setattr(Candidate, "errors", fail)
     found = fg.tune(phi, y, rules=["exponential"], rates=False, priors=False)
     assert found.rest.failed is not None and found.rest.error("tuned") == np.inf
     assert found.bank_is_better

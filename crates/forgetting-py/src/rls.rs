@@ -287,7 +287,8 @@ impl Rls {
     /// InvalidInput
     ///     For a wrong shape, NaN or Inf, or a gamma that is not positive definite.
     /// NumericalRange
-    ///     When the covariance would overflow. In either case nothing has changed.
+    ///     When the sample is too large. In either case nothing has changed. A covariance that has no
+    ///     room to grow any more stays: `rank` is 0, and `windup` true.
     #[pyo3(signature = (phi, y, gamma=None, *, elapsed=None, missing="error"))]
     fn update(
         &self,

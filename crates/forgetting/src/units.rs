@@ -88,7 +88,7 @@ impl<M: Memory> Units<M> {
             let column = phi.iter().skip(i).step_by(n);
             let largest = column.fold(M::Real::ZERO, |most, x| most.max(x.abs()));
             if largest > M::Real::ZERO && largest.is_finite() {
-                let reciprocal = (deviation / largest).min(M::Real::CEILING);
+                let reciprocal = (deviation / largest).min(M::Real::CEILING).max(M::Real::FLOOR);
                 self.reciprocals.as_mut()[i] = reciprocal;
                 each(i, reciprocal);
             }
@@ -144,19 +144,14 @@ impl<M: Memory> Units<M> {
             return None;
         }
         let (roots, counts) = (self.roots.as_ref(), self.counts.as_ref());
+        let reciprocals = self.reciprocals.as_ref();
         for (i, ratio) in self.ratios.as_mut().iter_mut().enumerate() {
             let mean = roots[i] / counts[i];
             // a mean that is not a number is that of no values
             let any = mean > M::Real::ZERO;
-            *ratio = if any { Self::within_range(mean * mean) } else { M::Real::ONE };
+            *ratio = if any { within_range(mean * mean, reciprocals[i]) } else { M::Real::ONE };
         }
         Some(self.ratios.as_ref())
-    }
-
-    /// No further in one renewal than P can follow without leaving its range.
-    fn within_range(ratio: M::Real) -> M::Real {
-        let most = M::Real::CEILING.sqrt().sqrt().sqrt();
-        ratio.min(most).max(M::Real::ONE / most)
     }
 
     /// Makes the renewal that [`Units::due`] found.
@@ -167,6 +162,13 @@ impl<M: Memory> Units<M> {
             reciprocals[i] /= ratio;
         }
     }
+}
+
+/// s₊/s no further in one renewal than P can follow without leaving its range, nor 1/s₊.
+fn within_range<T: Real>(ratio: T, reciprocal: T) -> T {
+    let most = T::CEILING.sqrt().sqrt().sqrt();
+    let (largest, smallest) = (most.min(reciprocal / T::FLOOR), reciprocal / T::CEILING);
+    ratio.min(largest).max(smallest.max(T::ONE / most))
 }
 
 /// The number of samples after which units of n regressors are next renewed.
@@ -189,8 +191,11 @@ impl<M: Memory> State<M::Real> for Units<M> {
 
     fn is_sound(&self) -> bool {
         let sums = [self.roots.as_ref(), self.counts.as_ref()];
+        // twice as far, for rounding
+        let two = M::Real::ONE + M::Real::ONE;
+        let in_range = |x: &M::Real| *x * two >= M::Real::FLOOR && *x <= M::Real::CEILING * two;
         self.samples <= MOST_SAMPLES
             && sums.iter().all(|sums| sums.iter().all(|x| *x >= M::Real::ZERO && x.is_finite()))
-            && self.reciprocals.as_ref().iter().all(|x| *x > M::Real::ZERO && x.is_finite())
+            && self.reciprocals.as_ref().iter().all(in_range)
     }
 }

@@ -85,10 +85,8 @@ def outcome(arguments: list[str]) -> int:
     try:
         code = app(args=arguments, standalone_mode=False, prog_name="forgetting")
         sys.stdout.flush()
-    except (RecordError, fg.InvalidInput) as error:
+    except (RecordError, fg.InvalidInput, fg.NumericalRange) as error:
         return complain(str(error))
-    except fg.NumericalRange as error:
-        return complain(f"{error}; a rule with a bounded covariance, such as subspace, avoids this")
     except MemoryError:
         return complain("the record does not fit into memory")
     except (BrokenPipeError, SystemExit):

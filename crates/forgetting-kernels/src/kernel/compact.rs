@@ -50,39 +50,32 @@ pub struct Compact<'a, T, const N: usize> {
     pub theta: &'a mut [T; N],
 }
 
-/// Why a sample was not taken.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Refused {
-    /// its error or its ‖φ‖² is not finite, or too large
-    Sample,
-    /// P has no room to grow as the form of forgetting says
-    Room,
-}
-
 impl<T: Real, const N: usize> Compact<'_, T, N> {
-    /// Forgets, measures and corrects.
-    ///
-    /// # Errors
-    /// [`Refused`]; nothing has changed.
+    /// Forgets, measures and corrects. Nothing is forgotten where P would leave the range of the number
+    /// type, and nothing has changed, without an outcome, where the error or ‖φ‖² is beyond it.
     // always, so that what calls it with one form compiles that one only
     #[inline(always)]
-    pub fn take(&mut self, form: Form<T>, phi: &[T; N], y: T) -> Result<Outcome<T>, Refused> {
+    pub fn take(&mut self, form: Form<T>, phi: &[T; N], y: T) -> Option<Outcome<T>> {
         let (product, squares) = few_products::<T, T, N>(phi, self.theta);
         let error = y - product;
         if !accepts(error, squares) {
-            return Err(Refused::Sample);
+            return None;
         }
-        let before = *self.bound;
+        let (sample, before) = ((phi, squares), *self.bound);
         for tight in [false, true] {
             if tight {
                 *self.bound = self.trace();
             }
-            if let Some(outcome) = self.measure(form, (phi, squares), error) {
-                return Ok(outcome);
+            let outcome = self.measure(form, sample, error);
+            if outcome.is_some() {
+                return outcome;
             }
         }
+        // there is room for what does not grow
+        *self.bound = T::ZERO;
+        let outcome = self.measure(Form::NOTHING, sample, error);
         *self.bound = before;
-        Err(Refused::Room)
+        outcome
     }
 
     /// The trace of P.

@@ -27,6 +27,11 @@ pub enum Form<T> {
     },
 }
 
+impl<T: Real> Form<T> {
+    /// P̄ = P
+    pub const NOTHING: Self = Self::Scale { growth: T::ONE };
+}
+
 /// 1 − noise/b: what a walk multiplies P with.
 #[inline(always)]
 pub fn shrink<T: Real, A: Lane<T>>(noise: A, per_bound: A) -> A {

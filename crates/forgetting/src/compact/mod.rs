@@ -18,7 +18,7 @@ use crate::memory::{Fixed, Packed, Size};
 use crate::rates::{Constant, Rate};
 use crate::rules::Forgetting;
 use crate::sample::{blame, out_of_range};
-use forgetting_kernels::kernel::compact::{Compact as Kernel, Refused};
+use forgetting_kernels::kernel::compact::Compact as Kernel;
 use forgetting_kernels::kernel::form::Form;
 use forgetting_kernels::kernel::layout::FEW;
 use forgetting_kernels::kernel::outcome::Outcome;
@@ -142,8 +142,7 @@ where
     #[inline(always)]
     pub fn update(&mut self, phi: &[T; N], y: T) -> Result<Outcome<T>, Error> {
         let form = self.form()?;
-        let mut outcome =
-            self.kernel().take(form, phi, y).map_err(|why| self.refuse(why, phi, y))?;
+        let mut outcome = self.kernel().take(form, phi, y).ok_or_else(|| self.refuse(phi, y))?;
         if outcome.used {
             self.samples = self.samples.saturating_add(1);
         }
@@ -153,14 +152,12 @@ where
 
     /// What was wrong with a sample.
     #[cold]
-    fn refuse(&self, why: Refused, phi: &[T; N], y: T) -> Error {
+    fn refuse(&self, phi: &[T; N], y: T) -> Error {
         let largest = (y - self.predict(phi)).abs();
-        match why {
-            Refused::Room => out_of_range("covariance (its trace)", self.bound),
-            Refused::Sample if largest <= T::CEILING => {
-                out_of_range("phi (its squared length)", few_products::<T, T, N>(phi, phi).0)
-            }
-            Refused::Sample => blame(phi, &[y], largest),
+        if largest <= T::CEILING {
+            out_of_range("phi (its squared length)", few_products::<T, T, N>(phi, phi).0)
+        } else {
+            blame(phi, &[y], largest)
         }
     }
 

@@ -1,9 +1,8 @@
 //! Adding information: P⁻¹ ← P⁻¹ + fᵀf. P can only shrink, and never below D ≥ floor.
 
 use super::Factor;
-use crate::error::Error;
 use crate::memory::Memory;
-use forgetting_kernels::kernel::form::{shrink, Form};
+use forgetting_kernels::kernel::form::Form;
 use forgetting_kernels::kernel::functions;
 use forgetting_kernels::kernel::measure::{Measure, Place};
 use forgetting_kernels::kernel::measured::Measured;
@@ -23,10 +22,8 @@ impl<M: Memory> Factor<M> {
     /// Forgets as `form` says, then [`Factor::add_information`], then θ ← θ + P·fᵀe for the n numbers
     /// of `theta` that belong to each e of `errors`: all of it in one pass over U.
     ///
-    /// `squares` is ‖f‖²; `scratch` holds [`kernel::scratch`] numbers.
-    ///
-    /// # Errors
-    /// [`Error::Range`] when P would leave the range of the number type; P is as it was.
+    /// `squares` is ‖f‖²; `scratch` holds [`kernel::scratch`] numbers. Nothing is forgotten where P would
+    /// leave the range of the number type.
     #[inline]
     pub(crate) fn measure(
         &mut self,
@@ -34,31 +31,24 @@ impl<M: Memory> Factor<M> {
         (f, squares): (&[M::Real], M::Real),
         scratch: &mut [M::Real],
         (theta, errors): (&mut [M::Real], &[M::Real]),
-    ) -> Result<Measured<M::Real>, Error> {
-        let before = self.trace_bound;
-        for tightened in [false, true] {
-            if tightened {
-                self.tighten();
-            }
-            let place = self.place(scratch);
-            let task = Measure { place, form, f, squares, theta, errors };
-            if let Some(measured) = M::Real::measure(task) {
-                return Ok(measured);
-            }
-        }
-        let (growth, added) = match form {
-            Form::Scale { growth } => (growth, M::Real::ZERO),
-            Form::Along { weight, .. } => {
-                let information = self.information_along(f, &mut scratch[..f.len()]);
-                (M::Real::ONE, weight / information * squares)
-            }
-            Form::Walk { noise, per_bound } => {
-                (shrink(noise, per_bound), noise * M::Real::from_f64(self.parameters() as f64))
-            }
+    ) -> Measured<M::Real> {
+        let mut measure = |place: Place<'_, M::Real>, form| {
+            M::Real::measure(Measure { place, form, f, squares, theta: &mut *theta, errors })
         };
-        let refused = self.reserve(growth, added);
+        if let Some(measured) = measure(self.place(scratch), form) {
+            return measured;
+        }
+        let before = self.trace_bound;
+        self.tighten();
+        if let Some(measured) = measure(self.place(scratch), form) {
+            return measured;
+        }
         self.trace_bound = before;
-        refused.map(|()| unreachable!("the kernel found no room"))
+        let place = Place { bound: &mut { M::Real::ZERO }, ..self.place(scratch) };
+        match measure(place, Form::NOTHING) {
+            Some(measured) => measured,
+            None => unreachable!("there is room for what does not grow"),
+        }
     }
 
     /// Takes samples of one row and one target, until one is to be refused or looked at closely;

@@ -172,15 +172,15 @@ fn forget_and_measure<F: Forgetting<M>, M: Memory>(
     }
     if let Some(form) = form {
         if let (Answer::Update, Some(factor)) = (gate, diagnostics.copy_prior(factor)) {
-            rule.forget(state, Step { factor, sample, forgetting_factor, elapsed, work })?;
+            forget(rule, state, Step { factor, sample, forgetting_factor, elapsed, work })?;
         }
         let (f, scratch) = (sample.row(0), work.scratch.as_mut());
-        let measured = factor.measure(form, (f, squares), scratch, (theta, sample.error(0)))?;
+        let measured = factor.measure(form, (f, squares), scratch, (theta, sample.error(0)));
         return Ok((forgotten(form, measured.forgot, factor.parameters()), measured.leverage));
     }
     let forgotten = match gate {
         Answer::Update => {
-            rule.forget(state, Step { factor, sample, forgetting_factor, elapsed, work })?
+            forget(rule, state, Step { factor, sample, forgetting_factor, elapsed, work })?
         }
         Answer::Freeze | Answer::Hold => Forgotten::rank(0),
     };
@@ -192,6 +192,24 @@ fn forget_and_measure<F: Forgetting<M>, M: Memory>(
         measure_rows(factor, sample, work.gain.as_mut(), theta, remaining)
     };
     Ok((forgotten, leverage))
+}
+
+/// What the rule forgets: nothing where P would leave the range of the number type.
+#[inline]
+fn forget<F: Forgetting<M>, M: Memory>(
+    rule: &F,
+    state: &mut F::State,
+    step: Step<'_, '_, M>,
+) -> Result<Forgotten, Error> {
+    let Step { factor, sample, forgetting_factor, elapsed, work } = step;
+    let again = Step { factor, sample, forgetting_factor, elapsed, work };
+    match rule.forget(state, again) {
+        Err(Error::Range { .. }) => {
+            rule.follow(state, Step { factor, sample, forgetting_factor, elapsed, work });
+            Ok(Forgotten::rank(0).with_factor(1.0))
+        }
+        forgotten => forgotten,
+    }
 }
 
 /// λ, if it is one.
@@ -212,6 +230,7 @@ fn usable<T: Real>(lambda: T) -> Result<T, Error> {
 pub(super) fn forgotten<T: Real>(form: Form<T>, forgot: bool, n: usize) -> Forgotten {
     match form {
         Form::Scale { growth } if growth == T::ONE => Forgotten::rank(0).with_factor(1.0),
+        Form::Scale { .. } if !forgot => Forgotten::rank(0).with_factor(1.0),
         Form::Scale { .. } => Forgotten::rank(n),
         Form::Along { .. } => Forgotten::rank(usize::from(forgot)),
         Form::Walk { .. } => Forgotten::rank(if forgot { n } else { 0 }),

@@ -155,7 +155,8 @@ pub trait Forgetting<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
     /// Forgets. Changes P, may rotate, scale or drop rows of the sample.
     ///
     /// # Errors
-    /// [`Error::Range`] when P would overflow; then nothing has changed.
+    /// [`Error::Range`] when P would overflow; then nothing has changed, and the sample is learned from
+    /// without forgetting.
     fn forget(&self, state: &mut Self::State, step: Step<'_, '_, M>) -> Result<Forgotten, Error>;
 }
 

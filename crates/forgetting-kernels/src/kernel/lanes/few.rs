@@ -130,7 +130,7 @@ pub fn advance<T: Real, A: StreamVector<T>, const N: usize>(
 #[inline(always)]
 fn scale<T: Real, A: StreamVector<T>, const N: usize, const WALK: bool>(
     mut small: Small<A, N, State<'_, T, A, N>>,
-    (growth, noise): (A, A),
+    (mut growth, mut noise): (A, A),
     f: &[A; N],
     (y, error, squares): (A, A, A),
     accepted: A::Mask,
@@ -138,10 +138,14 @@ fn scale<T: Real, A: StreamVector<T>, const N: usize, const WALK: bool>(
     let layout = const { Layout::new(N) };
     let bound = small.u.read(layout.bound());
     let room = (growth, noise * A::splat(T::from_f64(N as f64)));
-    let (bound, used) = make_room(bound, room, accepted, &small);
+    let (bound, room) = make_room(bound, room, &small);
+    if let Some(room) = room {
+        growth = A::select(room, growth, A::splat(T::ONE));
+        noise = A::select(room, noise, A::splat(T::ZERO));
+    }
     let mut copy;
     let mut before = None;
-    if !A::all(used) {
+    if !A::all(accepted) {
         // not zeros: to clear so many is a call, for which all registers are put away
         copy = [bound; MOST];
         small.u.copy_to(&mut copy);
@@ -153,11 +157,11 @@ fn scale<T: Real, A: StreamVector<T>, const N: usize, const WALK: bool>(
     } else {
         small.scale_and_measure::<T, true>(growth, f)
     };
-    let outcome = correct(small, &gain, (bound, error), (before, used));
+    let outcome = correct(small, &gain, (bound, error), (before, accepted));
     match before {
         None => outcome,
         Some(_) => {
-            let fate = Fate { accepted, informed: accepted, used };
+            let fate = Fate { accepted, used: accepted };
             report::mixed(&fate, (y, squares), outcome, error)
         }
     }
@@ -170,14 +174,20 @@ fn along<T: Real, A: StreamVector<T>, const N: usize>(
     weight: A,
     f: &[A; N],
     (y, error, squares): (A, A, A),
-    (accepted, informed): (A::Mask, A::Mask),
+    (accepted, used): (A::Mask, A::Mask),
     with_leverage: bool,
 ) -> LaneOutcome<A> {
     let layout = const { Layout::new(N) };
     let (zero, one) = (A::splat(T::ZERO), A::splat(T::ONE));
     let mut along = small.along(f);
     let (mut c, mut t) = (weight / along.information, along.information / weight);
-    let adds = adds(c);
+    let bound = small.u.read(layout.bound());
+    let mut adds = adds(c);
+    let added = A::select(adds, c * squares, zero);
+    let (bound, room) = make_room(bound, (one, added), &small);
+    if let Some(room) = room {
+        adds = A::both(adds, room);
+    }
     if !A::all(adds) {
         (c, t) = (A::select(adds, c, zero), A::select(adds, t, one));
         for i in 0..N {
@@ -185,9 +195,6 @@ fn along<T: Real, A: StreamVector<T>, const N: usize>(
             along.q[i] = A::select(adds, along.q[i], zero);
         }
     }
-    let bound = small.u.read(layout.bound());
-    let room = (one, c * squares);
-    let (bound, used) = make_room(bound, room, informed, &small);
     small.u.read_again();
     let mut copy;
     let mut before = None;
@@ -205,7 +212,7 @@ fn along<T: Real, A: StreamVector<T>, const N: usize>(
     let outcome = correct(small, &gain, (bound, error), (before, used));
     match before {
         None => outcome,
-        Some(_) => report::mixed(&Fate { accepted, informed, used }, (y, squares), outcome, silent),
+        Some(_) => report::mixed(&Fate { accepted, used }, (y, squares), outcome, silent),
     }
 }
 

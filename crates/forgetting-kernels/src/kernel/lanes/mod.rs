@@ -122,8 +122,6 @@ struct Fate<T: Real, A: StreamVector<T>> {
     /// neither error nor ‖φ‖² is NaN or out of range
     accepted: A::Mask,
     /// ... and the sample is not in the dead zone
-    informed: A::Mask,
-    /// ... and there is room for P
     used: A::Mask,
 }
 
@@ -151,22 +149,23 @@ trait Trace<A> {
     fn trace(&self) -> A;
 }
 
-/// The bound of P's trace after growing so, and where of `wanted` there is room for that.
+/// The bound of P's trace after growing so, and where there is no room for that, if anywhere: P is not
+/// to grow there, and the bound stays.
 #[inline(always)]
 fn make_room<T: Real, A: StreamVector<T>>(
     bound: A,
     (growth, added): (A, A),
-    wanted: A::Mask,
     streams: &impl Trace<A>,
-) -> (A, A::Mask) {
+) -> (A, Option<A::Mask>) {
     let ceiling = A::splat(T::CEILING);
     let next = bound * growth + added;
     let room = next.less_than(ceiling);
     if A::all(room) {
-        return (next, wanted);
+        return (next, None);
     }
     let next = A::select(room, next, streams.trace() * growth + added);
-    (next, A::both(wanted, next.less_than(ceiling)))
+    let room = next.less_than(ceiling);
+    (A::select(room, next, bound), Some(room))
 }
 
 /// In which lanes c·fᵀf is to be added: c > 0 and finite.

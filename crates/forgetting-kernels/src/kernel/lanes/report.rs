@@ -34,8 +34,7 @@ impl<T: Real, A: StreamVector<T>> Fate<T, A> {
     /// and for all that are without one.
     #[inline(always)]
     fn choose(&self, used: A, dead: A, without: A) -> A {
-        let accepted = A::select(self.informed, without, dead);
-        A::select(self.used, used, A::select(self.accepted, accepted, without))
+        A::select(self.used, used, A::select(self.accepted, dead, without))
     }
 }
 

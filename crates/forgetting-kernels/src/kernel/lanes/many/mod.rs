@@ -123,19 +123,24 @@ impl<'a, T: Real, A: StreamVector<T>> Columns<'a, T, A> {
         let (product, squares) = self.products(work);
         let error = y - product;
         let accepted = accepts(error, squares);
-        let (informed, mut growth, (mut c, mut t), grown) = match form {
+        let (used, mut growth, (mut c, mut t), grown) = match form {
             // a walk is of few parameters only
             Form::Scale { .. } | Form::Walk { .. } => {
                 (accepted, strength, (zero, one), (strength, zero))
             }
             Form::Along { dead_zone, .. } => {
                 let added @ (c, _) = self.look(work, strength);
-                let informed = A::both(accepted, dead_zone.leaves(squares));
-                (informed, one, added, (one, c * squares))
+                let used = A::both(accepted, dead_zone.leaves(squares));
+                (used, one, added, (one, c * squares))
             }
         };
         let bound = read(self.bound, self.lane);
-        let (next, used) = make_room(bound, grown, informed, self);
+        let (next, room) = make_room(bound, grown, self);
+        if let Some(room) = room {
+            growth = A::select(room, growth, one);
+            (c, t) = (A::select(room, c, zero), A::select(room, t, one));
+            work.forget_nothing::<A>(room);
+        }
         write(self.bound, self.lane, A::select(used, next, bound));
         let (all, mut silent) = (A::all(used), error);
         if !all {
@@ -156,7 +161,7 @@ impl<'a, T: Real, A: StreamVector<T>> Columns<'a, T, A> {
         if all {
             return outcome;
         }
-        report::mixed(&Fate { accepted, informed, used }, (y, squares), outcome, silent)
+        report::mixed(&Fate { accepted, used }, (y, squares), outcome, silent)
     }
 
     // plain loops: what an iterator calls may not be compiled for the vectors

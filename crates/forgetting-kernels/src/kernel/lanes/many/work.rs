@@ -71,6 +71,16 @@ impl<'a, T: Real> Work<'a, T> {
         }
     }
 
+    /// Nothing is added to P but where there is `room` for it.
+    #[inline(always)]
+    pub fn forget_nothing<A: StreamVector<T>>(&mut self, room: A::Mask) {
+        let zero = A::splat(T::ZERO);
+        for i in 0..self.f.len() {
+            put(self.z, i, A::select(room, get(self.z, i), zero));
+            put(self.q, i, A::select(room, get(self.q, i), zero));
+        }
+    }
+
     /// n numbers for each stream from `lane` on; zeros where there is none.
     #[inline(always)]
     pub fn regressors<A: StreamVector<T>>(&mut self, phi: &[T], lane: usize) {
