@@ -16,6 +16,7 @@ from forgetting.record.usage import Usage
 from forgetting.tuning.choose import SHARE, choose
 from forgetting.tuning.orders import USUAL_NA, order_grid, widest
 from forgetting.tuning.problem import Problem
+from forgetting.tuning.regression import Regression
 from forgetting.tuning.result import Tuning
 from forgetting.tuning.runner import Progress
 from forgetting.words.errors import RecordError
@@ -125,7 +126,7 @@ def tune(
 
 def problem(samples: Samples) -> Problem:
     """The samples as the search takes them."""
-    return Problem(samples.phi, samples.y, origin(samples).moved(samples).rows(slice(None)))
+    return Regression(samples.phi, samples.y, origin(samples).moved(samples).rows(slice(None)))
 
 
 def models_of(

@@ -36,13 +36,8 @@ class Candidate:
 
     def errors(self, problem: Problem, stop: int | None = None) -> Array:
         """One-step errors of the rows before `stop`, (T, m), each from before its sample."""
-        followed = self.initial_covariance is None
-        phi, y = problem.moved if followed else (problem.phi, problem.y)
-        phi, y = phi[:stop], y[:stop]
-        estimator = self.estimator(phi.shape[1], y.shape[1])
-        target = y if y.shape[1] > 1 else y[:, 0]
-        found = estimator.run(phi, target, outputs=("error",), missing="skip")
-        return np.asarray(found.error, dtype=np.float64).reshape(y.shape)
+        estimator = self.estimator(problem.parameters, problem.y.shape[1])
+        return problem.errors(estimator, stop, follows=self.initial_covariance is None)
 
     def estimator(self, parameters: int, targets: int) -> Any:
         """A new estimator."""

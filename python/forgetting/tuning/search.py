@@ -40,12 +40,8 @@ def best_orders(runner: Runner, orders: Sequence[Orders]) -> Orders:
     if min(least) == float("inf"):
         raise InvalidInput("no ARX model could be run on the first part of the record")
     near = min(least) * (1 + MARGIN)
-    return min((each for each, error in zip(orders, least, strict=True) if error <= near), key=size)
-
-
-def size(orders: Orders) -> tuple[int, int]:
-    """Sorts models: fewer parameters first, then the shorter delay."""
-    return orders.na + orders.nb, orders.nk
+    good = (each for each, error in zip(orders, least, strict=True) if error <= near)
+    return min(good, key=lambda each: each.size)
 
 
 def best_of_each(
