@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 
 import numpy as np
 import pandas as pd
@@ -82,6 +83,52 @@ def test_a_certificate_says_what_does_not_hold(record, tmp_path, capsys):
     assert "Reservation" in capsys.readouterr().out
     assert run(["certify", record, *SAID, "--arx", "1,1,2"]) == 0
     assert "Reservation" not in capsys.readouterr().out
+
+
+FAST = ["--no-rates", "--no-priors", "--rules", "none,exponential"]
+
+
+def test_orders_and_delay_are_found(record, capsys):
+    model = ["--model", "armax:na=1-2,nb=1-2,nc=0-2,nk=1-3"]
+    found = told(["tune", record, *SAID, *model, *FAST], capsys)
+    assert found["orders"] == "armax:na=1,nb=1,nc=1,nk=2"
+    tried = {each["orders"] for each in found["trials"]}
+    assert len(tried) == 2 * 2 * 3 * 3
+    first = found["first_row_of_the_rest"]
+    for command, python, name in (
+        (found["command"], found["python"], "tuned"),
+        (found["command_of_bank"], found["python_of_bank"], "bank"),
+    ):
+        said = told(shlex.split(command)[1:], capsys)
+        assert said["model"] == "ARMAX(na=1, nb=1, nc=1, nk=2) of y on u"
+        names = {}
+        exec(python, names)
+        error = names["found"].trace.error[first:, 0]
+        reported = found["errors_on_rest"][name]["y"]
+        assert np.sqrt(np.mean(error**2)) == pytest.approx(reported, rel=1e-12)
+
+
+def test_ranges_of_a_linear_structure_are_those_of_arx(record, capsys):
+    by_model = told(["tune", record, *SAID, "--model", "arx:na=1-2,nb=1,nk=1-3", *FAST], capsys)
+    assert by_model == told(["tune", record, *SAID, "--arx", "1-2,1,1-3", *FAST], capsys)
+
+
+@pytest.mark.parametrize(
+    ("model", "words"),
+    [
+        ("armax:na=3-1", "na=3-1 is no range"),
+        ("armax:na=1-9,nb=1-9,nc=1-9", "2916 models are to be tried, allowed: 1 to 300"),
+        ("armax:na=1..3", "'na=1..3' is not an order"),
+        ("arma:na=1-2", "nb = 0 goes with u = None"),
+        ("armax:nb=0", "nb = 0 goes with u = None"),
+        ("arx:nb=1/2", "same orders for all inputs"),
+        ("tree", "the model 'tree' is not known"),
+    ],
+)
+def test_what_cannot_be_tried_is_said_in_one_sentence(model, words, record, capsys):
+    assert run(["tune", record, *SAID, "--model", model]) == 2
+    error = capsys.readouterr().err
+    assert words in error and "Traceback" not in error
 
 
 @pytest.mark.parametrize("command", ["identify", "compare", "certify"])

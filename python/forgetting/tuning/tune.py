@@ -18,6 +18,7 @@ from forgetting.tuning.problem import Problem
 from forgetting.tuning.regression import Regression
 from forgetting.tuning.result import Lines, Tuning
 from forgetting.tuning.runner import Progress
+from forgetting.tuning.structures import ModelOrders
 
 
 def tune(
@@ -159,8 +160,8 @@ def tune_arx(
     inputs, outputs = paired(u, y)
     models = order_grid(na, nb, nk, inputs.shape[1])
 
-    def make(orders: Orders | None) -> Problem:
-        assert orders is not None
+    def make(orders: ModelOrders | None) -> Problem:
+        assert isinstance(orders, Orders)
         phi = regressors(inputs, outputs, orders)
         return Regression(phi, outputs, (phi, outputs))
 
