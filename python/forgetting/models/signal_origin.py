@@ -70,15 +70,21 @@ class SignalOrigin:
             found[..., -1] -= u * theta[..., b].sum(axis=-1) / (1.0 - theta[..., f].sum(axis=-1))
         return found
 
+    def gradient(self, theta: Array) -> Array:
+        """Of the constant of signals as they are along all parameters, (..., n)."""
+        found = np.zeros_like(theta)
+        found[..., -1] = 1.0
+        found[..., self.a] = -self.output
+        for u, b, f in zip(self.inputs, self.b, self.f, strict=True):
+            slow = 1.0 - theta[..., f].sum(axis=-1, keepdims=True)
+            found[..., b] = -u / slow
+            found[..., f] = -u * theta[..., b].sum(axis=-1, keepdims=True) / slow**2
+        return found
+
     def change(self, theta: Array) -> Array:
         """What makes of P (n, n) that of parameters for signals as they are, at `theta` (n,)."""
         change = np.eye(len(theta))
-        offset = change[-1]
-        offset[self.a] = -self.output
-        for u, b, f in zip(self.inputs, self.b, self.f, strict=True):
-            slow = 1.0 - theta[f].sum()
-            offset[b] = -u / slow
-            offset[f] = -u * theta[b].sum() / slow**2
+        change[-1] = self.gradient(theta)
         return change
 
     def covariance(self, theta: Array, covariance: Array) -> Array:
