@@ -69,7 +69,7 @@ MODULES = (
                 "Dynamic models",
                 ("ARX", "FIR", "AR", "ARMA", "ARMAX", "OE", "BJ", "PolynomialModel"),
             ),
-            ("Choosing settings", ("tune", "tune_arx", "Tuning")),
+            ("Choosing settings", ("tune", "tune_arx", "tune_model", "Tuning")),
             ("Many streams", ("Fleet", "FleetUpdate", "FleetHealth")),
             ("Errors and codes", ("InvalidInput", "NumericalRange", "GATE", "SKIPPED")),
             (

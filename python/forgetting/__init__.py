@@ -34,7 +34,7 @@ from .meter import ExcitationMeter
 from .models import AR, ARMA, ARMAX, ARX, BJ, FIR, OE
 from .polynomials import PolynomialModel
 from .registry import *  # noqa: F403 (the axes and their registries)
-from .tuning import Tuning, tune, tune_arx
+from .tuning import Tuning, tune, tune_arx, tune_model
 
 __all__ = [
     "AR",
@@ -66,5 +66,6 @@ __all__ = [
     "bounded",
     "tune",
     "tune_arx",
+    "tune_model",
 ]
 __all__ += registry.__all__

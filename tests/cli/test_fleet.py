@@ -56,6 +56,29 @@ def streams_of(path: Path) -> list[dict[str, object]]:
     return feather.read_table(path).to_pylist()
 
 
+def test_a_linear_structure_is_arx(forgetting, data, tmp_path):
+    streams = []
+    for name, said in (("a", ("--arx", "1,2,0")), ("m", ("--model", "arx:na=1,nb=2,nk=0"))):
+        path = tmp_path / f"{name}.parquet"
+        assert forgetting("fleet", data, *MODEL, *said, "--streams", path).code == 0
+        streams.append(parquet.read_table(path))
+    assert streams[0].equals(streams[1])
+
+
+@pytest.mark.parametrize(
+    ("said", "words"),
+    [
+        (("--model", "armax:na=1,nb=1,nc=1"), "allowed: fir, ar and arx"),
+        (("--model", "arx:na=1", "--arx", "1,1,1"), "allowed: one of them"),
+        (("--model", "arx:nz=1"), "is not an order"),
+        (("--model", "ar:na=1"), "inputs go with nb"),
+    ],
+)
+def test_a_model_that_a_fleet_cannot_have_is_refused(forgetting, data, said, words):
+    done = forgetting("fleet", data, *MODEL, *said)
+    assert done.code == 2 and words in done.err
+
+
 def test_rows_streams_and_report(forgetting, data, tmp_path):
     out, state, streams = tmp_path / "out", tmp_path / "f.arrow", tmp_path / "s.parquet"
     pattern = str(data / "*.parquet")

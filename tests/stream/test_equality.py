@@ -10,6 +10,7 @@ import pytest
 import forgetting as fg
 from forgetting.record import identify
 from forgetting.stream import Settings, Stream
+from forgetting.words.errors import RecordError
 
 from .conftest import arx, as_csv, fed, objects, plant, rows
 
@@ -24,6 +25,9 @@ MODELS = {
     "no offset": dict(output=("y",), input=("u",), arx=(1, 1, 1), offset=False),
     "two outputs": dict(output=("y", "u"), arx=(1, 0, 0)),
     "formula": dict(formula="y ~ lag(y) + lag(u, 1) + np.abs(u)"),
+    "structure": dict(output=("y",), input=("u",), model="armax:na=1,nb=1,nc=1,nk=1"),
+    "output error": dict(output=("y",), input=("u",), model="oe:nb=1,nf=1,nk=1", offset=False),
+    "signal alone": dict(output=("y",), model="arma:na=2,nc=1"),
     "no constant": dict(formula="y ~ 0 + lag(y) + u:lag(u, 2)"),
 }
 RULES = {
@@ -43,6 +47,10 @@ def test_same_as_identify(tmp_path, model, rule):
     data = with_holes()
     (tmp_path / "record.csv").write_bytes(data)
     settings = MODELS[model] | RULES[rule]
+    if rule == "half-life" and model in ("structure", "output error", "signal alone"):
+        with pytest.raises(RecordError, match="forgets by samples"):
+            Settings(**settings)
+        return
     found = identify(tmp_path / "record.csv", gap=0.15, **settings)
     told = rows(fed(data, Settings(gap=0.15, **settings), FIELDS).lines)
     table = found.estimates()

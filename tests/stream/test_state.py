@@ -25,6 +25,10 @@ ALL = {
         output=("y",), input=("u",), rule="subspace", half_life="5s", arx=(1, 1, 0)
     ),
     "outputs": Settings(output=("y", "u"), arx=(1, 0, 0), dtype="float32"),
+    "structure": Settings(output=("y",), input=("u",), model="armax:na=1,nb=2,nc=1,nk=1"),
+    "structure and rule": Settings(
+        output=("y",), input=("u",), model="bj:nb=1,nc=1,nd=1,nf=1,nk=1", rule=fg.Subspace(0.98)
+    ),
     "formula": Settings(formula="y ~ lag(y) + lag(lag(u), 2)"),
     "no clock": Settings(output=("y",), input=("u",), time="none", gate="dead_zone"),
 }

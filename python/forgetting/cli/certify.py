@@ -26,6 +26,7 @@ def certify(
     output: options.Outputs = None,
     input: options.Inputs = None,
     arx: options.Orders = None,
+    model: options.ModelText = None,
     offset: options.Offset = True,
     time: options.Time = None,
     gap: options.Gap = None,
@@ -52,7 +53,7 @@ def certify(
 
     Exit code 0, or 1 when the covariance wound up. Samples with a missing value are skipped.
     """
-    source, model = told(**locals())
+    source, said = told(**locals())
     from forgetting.record.identify import identify
     from forgetting.record.theory import theory
 
@@ -65,7 +66,7 @@ def certify(
     with progress_bar(f"certifying {record.name}") as progress:
         found = identify(
             source,
-            **model,
+            **said,
             rule=made,
             gate=before,
             initial_covariance=start,
@@ -86,13 +87,20 @@ def certify(
 
 def print_certificate(found: Identification, certificate: Certificate, first: int) -> None:
     """Print the judgement and what theory says."""
+    from forgetting.record.theory import reservation
+
     say(f"{found.samples.clock_in_words()}\nrule {found.rule_in_words}")
     print_judgement(found.judgement)
     say(f"\n{certificate.theory(first)}")
+    limits = reservation(found.samples)
+    if limits is not None:
+        say(f"Reservation\n  {limits}")
 
 
 def in_json(found: Identification, certificate: Certificate, first: int) -> str:
     """The judgement, the certificate and the clock as JSON."""
+    from forgetting.record.theory import reservation
+
     theory = certificate.to_dict()
     written = found.judgement.to_dict()
     return json.dumps(
@@ -104,6 +112,7 @@ def in_json(found: Identification, certificate: Certificate, first: int) -> str:
             "first_row_examined": first + 1,
             **{name: theory[name] for name in ("excitation", "conditions", "stability")},
             "confidence": theory["confidence"],
+            "reservation": reservation(found.samples),
             "clock": found.samples.clock_as_data(),
         },
         indent=2,

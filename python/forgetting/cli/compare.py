@@ -36,6 +36,7 @@ def compare(
     output: options.Outputs = None,
     input: options.Inputs = None,
     arx: options.Orders = None,
+    model: options.ModelText = None,
     offset: options.Offset = True,
     time: options.Time = None,
     gap: options.Gap = None,
@@ -64,7 +65,7 @@ def compare(
     best process noise), chosen on the first part of the record; ranked by the rest. With
     --forgetting-factor all have that one, and all samples count, as they do in a short record.
     """
-    source, model = told(**locals())
+    source, said = told(**locals())
     from forgetting.record.compare import compare as compare_rules
 
     check_targets(record, report, None, plot)
@@ -76,7 +77,7 @@ def compare(
         found = compare_rules(
             source,
             chosen(rules),
-            **model,
+            **said,
             initial_covariance=parse_covariance(initial_covariance),
             forgetting_factor=forgetting_factor,
             share=share,
@@ -120,6 +121,8 @@ def print_ranking(found: Comparison) -> None:
     out.print(table(title, HEADER, [row(each) for each in found.ranked]))
     for sentence in found.refused:
         out.print(f"refused: {sentence}", markup=False)
+    if found.reservation is not None:
+        out.print(found.reservation)
 
 
 def write(found: Comparison, report: Path | None, plot: Path | None) -> list[Path]:
@@ -140,6 +143,7 @@ def save(found: Comparison, path: Path) -> None:
     from forgetting.report.page import Block, Figure, Page, Table, write
 
     samples = found.samples
+    errors = f"Errors of {found.scored_in_words()}."
     write(
         Page(
             title="Forgetting rules side by side",
@@ -153,7 +157,7 @@ def save(found: Comparison, path: Path) -> None:
             blocks=[
                 Block(
                     title="Ranked by one-step error",
-                    text=f"Errors of {found.scored_in_words()}. {MEANING}",
+                    text=" ".join(filter(None, [errors, MEANING, found.reservation])),
                     table=Table(HEADER, [row(each) for each in found.ranked]),
                 )
             ],

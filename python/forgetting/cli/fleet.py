@@ -116,6 +116,15 @@ def fleet(
     output: Output,
     input: Inputs = None,
     arx: options.Orders = None,
+    model: Annotated[
+        str | None,
+        options.option(
+            options.MODEL,
+            "Structure and orders in the place of --arx: fir, ar or arx, as in arx:na=1,nb=2,nk=0.",
+            "--model",
+            metavar="NAME:ORDERS",
+        ),
+    ] = None,
     offset: Offset = True,
     time: Time = None,
     gap: Gap = None,
@@ -155,6 +164,7 @@ def fleet(
     made = new_fleet(
         (by, output, input or (), time),
         arx=None if arx is None else parse_orders(arx),
+        model=model,
         offset=offset,
         gap=gap,
         gate=make_gate(gate),

@@ -75,7 +75,6 @@ def identify(
         found = identify_record(
             source,
             **said,
-            model=model,
             rule=chosen,
             half_life=half_life,
             by_clock=by_clock,

@@ -24,6 +24,7 @@ def told(
     output: Sequence[str] | None,
     input: Sequence[str] | None,
     arx: str | None,
+    model: str | None,
     offset: bool,
     time: str | None,
     gap: str | None,
@@ -48,14 +49,15 @@ def told(
         The model, as functions of `forgetting.record` take it.
     """
     rates = Rates(every, hold, mean, nearest, age)
-    model = {
+    said = {
         "formula": formula,
         "output": output or (),
         "input": input or (),
         "arx": None if arx is None else parse_orders(arx),
+        "model": model,
         "offset": offset,
     }
-    return partial(read_record, record, time, gap, missing, part, encoding, rates), model
+    return partial(read_record, record, time, gap, missing, part, encoding, rates), said
 
 
 def read_record(

@@ -39,6 +39,7 @@ def stream(
     output: options.Outputs = None,
     input: options.Inputs = None,
     arx: options.Orders = None,
+    model: options.ModelText = None,
     offset: options.Offset = True,
     time: options.Time = None,
     gap: Annotated[
@@ -106,7 +107,8 @@ def stream(
 ) -> None:
     """Follow a sensor: one line of estimates for every line that comes.
 
-    Say the model by --formula, or by --output with --input, and --arx for its dynamics. Alarms
+    Say the model by --formula, or by --output with --input, and --arx or --model for its
+    dynamics. Alarms
     (windup, a parameter that nothing excites, a change) are lines of their own.
     """
     from forgetting.stream.pump import Pump
@@ -120,6 +122,7 @@ def stream(
         output=tuple(output or ()),
         input=tuple(input or ()),
         arx=None if arx is None else parse_orders(arx),
+        model=model,
         offset=offset,
         rule=rule_or_auto(rule, forgetting_factor, threshold, settings or [], rate),
         half_life=half_life,

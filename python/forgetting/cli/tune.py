@@ -32,6 +32,17 @@ def tune(
             metavar="NA,NB,NK",
         ),
     ] = None,
+    model: Annotated[
+        str | None,
+        options.option(
+            options.MODEL,
+            "Structure in the place of --arx: fir, ar, arx, arma, armax, oe or bj, and orders, "
+            "each a number or a range, as in armax:na=1-3,nb=1-3,nc=0-2,nk=1-4; of those not named "
+            "the usual ones.",
+            "--model",
+            metavar="NAME:ORDERS",
+        ),
+    ] = None,
     offset: options.Offset = True,
     time: options.Time = None,
     gap: options.Gap = None,
@@ -77,6 +88,7 @@ def tune(
             output=output or (),
             input=input or (),
             arx=None if arx is None else parse_ranges(arx),
+            model=model,
             offset=offset,
             rules=parse_rules(rules),
             rates=rates,

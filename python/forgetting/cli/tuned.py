@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from rich.markup import escape
 
 from forgetting.cli.tables import console, say, table
+from forgetting.models.orders import Orders
 from forgetting.tuning.code import code
 from forgetting.words.rounding import brief
 
@@ -62,7 +63,10 @@ def called(rule: Any) -> str:
 def title_of_rest(found: Tuning) -> str:
     """What the second table shows."""
     orders = found.orders
-    model = "" if orders is None else f" of ARX({orders.na},{orders.nb},{orders.nk})"
+    if isinstance(orders, Orders):
+        model = f" of ARX({orders.na},{orders.nb},{orders.nk})"
+    else:
+        model = "" if orders is None else f" of {orders}"
     count = int(found.split.reporting.sum())
     return f"One-step RMSE{model} on the rest, {count} samples that no choice has seen"
 

@@ -52,6 +52,11 @@ class Orders:
         oldest_input = self.nk + self.nb - 1 if self.nb else 0
         return max(self.na, oldest_input)
 
+    @property
+    def size(self) -> tuple[int, int]:
+        """Coefficients, and the delay, of which the fewer are the simpler model."""
+        return self.na + self.nb, self.nk
+
     def input_lags(self, inputs: int) -> list[tuple[int, int]]:
         """Lag and input of each regressor that is an input, in their order: the newest first."""
         return [(lag, u) for lag in range(self.nk, self.nk + self.nb) for u in range(inputs)]

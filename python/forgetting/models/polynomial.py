@@ -16,6 +16,7 @@ from forgetting.models.estimator import new_estimator
 from forgetting.models.identified import identified
 from forgetting.models.mean_square import MEMORY, MeanSquare
 from forgetting.models.orders import per_input, whole
+from forgetting.models.signal_origin import SignalOrigin, first_values
 from forgetting.polynomials import PolynomialModel, Structure
 
 Array = NDArray[np.float64]
@@ -71,6 +72,7 @@ class Polynomial(Constructor):
         used = self._learn(model, estimator, noise, inputs, outputs)
         # set only after success, so that a refused record leaves the model as it was
         self.estimator_, self._model, self._noise, self.used_ = estimator, model, noise, used
+        self._first = first_values(np.column_stack([inputs, outputs]))
         self.n_inputs_ = inputs.shape[1]
         self._labels = channel_names("y", y, 1), channel_names("u", u, inputs.shape[1])
         self.names_ = self.terms(self._labels[1], self._labels[0][0])
@@ -85,6 +87,8 @@ class Polynomial(Constructor):
             return self.fit(u, y)
         inputs, outputs = self._checked(u, y)
         self.used_ += self._learn(self._model, self.estimator_, self._noise, inputs, outputs)
+        now = first_values(np.column_stack([inputs, outputs]))
+        self._first = np.where(np.isnan(self._first), now, self._first)
         return self
 
     def course(
@@ -214,7 +218,9 @@ class Polynomial(Constructor):
     @property
     def covariance_(self) -> Array:
         """P after the last sample, (n, n); times `noise_variance_` the covariance of `theta_`."""
-        return np.asarray(self._learned("covariance_", "estimator_").covariance)
+        covariance = np.asarray(self._learned("covariance_", "estimator_").covariance)
+        origin = self.origin(self._first)
+        return covariance if origin is None else origin.covariance(self.theta_, covariance)
 
     @property
     def noise_variance_(self) -> float:
@@ -237,8 +243,23 @@ class Polynomial(Constructor):
         lags = [delay + order - 1 for delay, order in zip(nk, nb, strict=True)]
         return max(self.na, *lags, 0)
 
+    def at_rest(self, inputs: int) -> SignalModel:
+        """What makes regressors of so many inputs and an output, before the first sample."""
+        return SignalModel(**self._orders(inputs), constant=self.offset, method=self.method)
+
+    def origin(self, first: Array) -> SignalOrigin | None:
+        """What `at_rest` measures from, by the first values of all inputs and the output, (i + 1,).
+
+        None without a constant, as zero is the origin then.
+        """
+        if not self.offset:
+            return None
+        orders = self._orders(len(first) - 1)
+        noise = orders["nc"] + orders["nd"]
+        return SignalOrigin.of(first[:-1], first[-1], orders["na"], orders["inputs"], noise)
+
     def _start(self, inputs: int) -> tuple[SignalModel, RLS | Bank]:
-        model = SignalModel(**self._orders(inputs), constant=self.offset, method=self.method)
+        model = self.at_rest(inputs)
         estimator = new_estimator(
             model.parameters,
             self.rule,

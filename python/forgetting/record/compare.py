@@ -12,7 +12,8 @@ import forgetting as fg
 from forgetting.record.comparison import Compared, Comparison
 from forgetting.record.identify import build, listed
 from forgetting.record.origin import origin
-from forgetting.record.ranking import Whole, over_all
+from forgetting.record.polynomial import recorded, which
+from forgetting.record.ranking import Learn, Whole, by_regressors, by_signals, over_all
 from forgetting.record.read import Record, read
 from forgetting.record.release import release
 from forgetting.record.samples import Samples
@@ -39,6 +40,7 @@ def compare(
     output: str | Sequence[str] = (),
     input: str | Sequence[str] = (),
     arx: Sequence[int] | None = None,
+    model: str | None = None,
     offset: bool = True,
     initial_covariance: ArrayLike | None = None,
     forgetting_factor: float | None = None,
@@ -53,7 +55,7 @@ def compare(
 
     Parameters
     ----------
-    record, formula, output, input, arx, offset
+    record, formula, output, input, arx, model, offset
         The record and the model, see `forgetting.record.identify`.
     initial_covariance : float or array_like of shape (n,), optional
         P before the first sample, or its diagonal; follows the data if not given.
@@ -84,20 +86,19 @@ def compare(
     ['exponential', 'none']
     """
     source = read(record)
-    samples = build(source, formula, listed(output), listed(input), arx, offset)
+    said = formula, listed(output), listed(input), arx, model, offset
+    samples, whole, learn = prepared(source, *said, moves=initial_covariance is None)
     del record, source  # the table, which nobody else may hold, is as large as what is made of it
     release(len(samples.y))
-    whole = problem(samples)
     parts = split(whole, share)
     part, choosing = choosing_part(whole, parts)
     runner = Runner(lambda _: part, choosing, progress=progress)
     runner.expected = len(rules)
     plain = [Candidate(fg.rule(name), prior(initial_covariance, samples)) for name in rules]
     chosen, unchosen = with_factors(runner, plain, forgetting_factor, parts.is_enough)
-    moved = origin(samples, moves=initial_covariance is None).moved(samples)
     scored = scored_samples(samples) if unchosen else parts.reporting
     made = []
-    for trial, found in zip(chosen, over_all(chosen, moved, scored), strict=True):
+    for trial, found in zip(chosen, over_all(chosen, samples, learn, scored), strict=True):
         made.append((trial, found))
         if progress is not None:
             runs = runner.runs + len(made)
@@ -111,6 +112,25 @@ def compare(
         samples=samples,
         choosing=None if unchosen or part is whole else len(part.y),
     )
+
+
+def prepared(
+    source: Record,
+    formula: str | None,
+    outputs: list[str],
+    inputs: list[str],
+    arx: Sequence[int] | None,
+    model: str | None,
+    offset: bool,
+    moves: bool,
+) -> tuple[Samples, Problem, Learn]:
+    """The samples of a model, as factors are chosen by them, and as rules are run over them."""
+    arx, named = which(formula, arx, model)
+    if named is not None:
+        found = recorded(source, outputs, inputs, named, offset)
+        return found.plain_samples(), found.signals, by_signals(found.signals)
+    samples = build(source, formula, outputs, inputs, arx, offset)
+    return samples, problem(samples), by_regressors(origin(samples, moves).moved(samples))
 
 
 def with_factors(
@@ -137,7 +157,7 @@ def choosing_part(problem: Problem, parts: Split) -> tuple[Problem, Split]:
     rows = slice(start, parts.row)
     part = problem.part(rows)
     count = np.cumsum(part.complete)
-    settled = count > max(2 * problem.phi.shape[1], count[-1] // 10)
+    settled = count > max(2 * problem.parameters, count[-1] // 10)
     choosing = parts.choosing[rows] & settled
     return part, Split(CHOOSING, choosing, np.zeros_like(choosing))
 

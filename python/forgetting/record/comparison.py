@@ -14,6 +14,11 @@ from forgetting.tuning.candidate import tuned
 from forgetting.tuning.problem import Split
 from forgetting.tuning.runner import Trial
 
+OWN_REGRESSORS = (
+    "The model is not linear in its parameters: each rule makes its regressors from its own "
+    "estimates. Errors compare as ever; eigenvalues of P are each of other regressors."
+)
+
 
 @dataclass(frozen=True)
 class Compared:
@@ -106,6 +111,11 @@ class Comparison:
         by = "those before" if self.choosing is None else f"the {self.choosing} rows before"
         return f"the last {count} samples, each rule with its best factor on {by}"
 
+    @property
+    def reservation(self) -> str | None:
+        """What must be known of rules whose regressors follow from their estimates; else None."""
+        return OWN_REGRESSORS if self.samples.is_pseudolinear else None
+
     def summary(self) -> dict[str, Any]:
         """All of it for JSON: None where a number is not finite."""
         samples = self.samples if self.ranked else None
@@ -117,5 +127,6 @@ class Comparison:
             "rows_that_choose": self.choosing,
             "rules": [each.summary() for each in self.ranked],
             "refused": self.refused,
+            "reservation": self.reservation,
         }
         return dict(finite(found))

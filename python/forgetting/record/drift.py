@@ -39,7 +39,7 @@ from forgetting.record.courses import (
     weigh,
 )
 from forgetting.record.moved import Moved, as_run
-from forgetting.record.origin import Origin, constant_of
+from forgetting.record.origin import Origin, constant_of, nowhere
 from forgetting.record.samples import Samples
 from forgetting.record.trace import USED
 
@@ -189,13 +189,17 @@ def along(
 ) -> tuple[Array, Array]:
     """θ and σ² P_ii of a course after each of the rows, (K, n, m) each, as measured from zero."""
     estimator = walk(samples, course.process_noise, settings)
-    change, n, m = here.change(), samples.parameters, samples.targets
+    n, m, origin = samples.parameters, samples.targets, samples.samples.origin
+    change = here.change()
     noise, thetas, spreads, start = Noise(n, m), [], [], 0
     for row in rows:
         phi, y = as_run(*after(samples, course, start, int(row) + 1), settings["dtype"])
         found = estimator.run(phi, y, outputs=OUTPUTS, missing="skip")
         noise.take(found)
-        thetas.append(np.asarray(estimator.theta, dtype=np.float64).reshape(n, m))
+        theta = np.asarray(estimator.theta, dtype=np.float64).reshape(n, m)
+        if origin is not None:  # of a model of one output
+            change, theta = origin.change(theta[:, 0]), origin.express(theta[:, 0])[:, None]
+        thetas.append(theta)
         spread = np.einsum("ij,jk,ik->i", change, estimator.covariance, change)
         spreads.append(spread[:, None] * noise.variance)
         start = row + 1
@@ -234,7 +238,7 @@ def middle(samples: Samples, moves: bool) -> Origin:
     """The means of the record, if the model has a constant and `moves`; else zero."""
     constant, level = constant_of(samples) if moves else (None, 1.0)
     if constant is None:
-        return Origin(None, 1.0, np.zeros(samples.phi.shape[1]), np.zeros(samples.y.shape[1]))
+        return nowhere(samples)
     parts = [(phi.sum(axis=0), y.sum(axis=0)) for phi, y in samples.known_pieces()]
     count = int(samples.complete.sum())
     center, output = (np.sum(sums, axis=0) / count for sums in zip(*parts, strict=True))

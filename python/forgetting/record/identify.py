@@ -20,7 +20,7 @@ from forgetting.record.missing import Words
 from forgetting.record.moved import Moved
 from forgetting.record.names import clean
 from forgetting.record.origin import constants, origin
-from forgetting.record.polynomial import Learned, learned, linear
+from forgetting.record.polynomial import Learned, learned, which
 from forgetting.record.read import Record, read
 from forgetting.record.release import release
 from forgetting.record.remembered import remembered
@@ -124,18 +124,15 @@ def identify(
     source = read(record, time, gap=gap, missing=missing)
     columns = listed(output), listed(input)
     course: Learned | None = None
-    if model is not None:
-        if formula is not None or arx is not None:
-            raise RecordError("say the model once: as a model, by arx, or by a formula")
-        arx = linear(model)
-    if model is None or arx is not None:
+    arx, named = which(formula, arx, model)
+    if named is None:
         samples = build(source, formula, *columns, arx, offset)
     else:
         if half_life is not None or by_clock:
             raise RecordError(f"the model {model} forgets by samples; leave out what counts time")
         chosen = {"rule": rule, "gate": gate, "dtype": dtype}
         chosen["initial_covariance"] = initial_covariance
-        course = learned(source, *columns, model, offset, **chosen)
+        course = learned(source, *columns, named, offset, **chosen)
         samples = course.samples
     del record, source  # the table, which nobody else may hold, is as large as what is made of it
     release(len(samples.y))
@@ -146,7 +143,7 @@ def identify(
         "dtype": dtype,
     }
     estimator = estimator_for(samples.phi.shape[1], rule, gate=gate, **settings)
-    here = origin(samples, moves=initial_covariance is None and course is None)
+    here = origin(samples, moves=initial_covariance is None)
     initial = np.asarray(estimator.covariance, dtype=np.float64)
     moved = here.moved(samples)
     trace = run(estimator, moved, progress, time_of)
@@ -173,7 +170,7 @@ def identify(
     judgement = judge(judged)  # before the trace is changed
     return Identification(
         samples=samples,
-        trace=here.back(trace) if course is None else course.blur(trace),
+        trace=here.back(trace) if course is None else course.back(trace),
         rule=rule_of(estimator, rule),
         scores=scores,
         judgement=judgement,

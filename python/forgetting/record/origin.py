@@ -87,15 +87,25 @@ def origin(samples: Samples, moves: bool = True) -> Origin:
     """
     constant, level = constant_of(samples) if moves else (None, 1.0)
     if constant is None:
-        return Origin(None, 1.0, np.zeros(samples.phi.shape[1]), np.zeros(samples.y.shape[1]))
+        return nowhere(samples)
     row = int(samples.complete.argmax())
     first = samples.phi[row].copy()
     first[constant] = 0.0
     return Origin(constant, level, first, samples.y[row].copy())
 
 
+def nowhere(samples: Samples) -> Origin:
+    """Zero, where nothing is moved."""
+    return Origin(None, 1.0, np.zeros(samples.phi.shape[1]), np.zeros(samples.y.shape[1]))
+
+
 def constant_of(samples: Samples) -> tuple[int | None, float]:
-    """The column that is a constant, and its value; (None, 1.0) if there is none."""
+    """The column that is a constant, and its value; (None, 1.0) if there is none.
+
+    A model that makes its own regressors has measured its signals from their first values already.
+    """
+    if samples.is_pseudolinear:
+        return None, 1.0
     first = samples.phi[samples.complete.argmax()]
     same = np.flatnonzero(constants(Moved(samples)) & (first != 0))
     if samples.complete.sum() < 2 or not len(same):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -10,21 +9,88 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-import forgetting as fg
-from forgetting._core import structures
-from forgetting.models.polynomial import Polynomial
-from forgetting.record.dynamics import CONSTANT, columns, refuse_repeats, stretches
+from forgetting._core import InvalidInput
+from forgetting.models.named import NamedModel, in_text
+from forgetting.models.signal_origin import first_values
+from forgetting.record.dynamics import columns, refuse_repeats, stretches
 from forgetting.record.read import Record
 from forgetting.record.samples import Samples
 from forgetting.record.trace import Trace
+from forgetting.tuning.signals import Signals
 from forgetting.words.errors import RecordError
 
 Array = NDArray[np.float64]
 
-CLASSES: dict[str, type[Any]] = {name: getattr(fg, name.upper()) for name in structures()}
-"""The class of each structure of the registry."""
 
-ORDER = re.compile(r"^(?P<name>n[abcdfk])=(?P<values>\d+(/\d+)*)$")
+@dataclass(frozen=True)
+class Recorded:
+    """The columns of a record as the signals of a model.
+
+    Attributes
+    ----------
+    record : Record
+    output : str
+    inputs : sequence of str
+    named : NamedModel
+    signals : Signals
+        Across a gap of the clock the model runs on its own predictions, and samples whose lags
+        cross it are left out.
+    """
+
+    record: Record
+    output: str
+    inputs: Sequence[str]
+    named: NamedModel
+    signals: Signals
+
+    def samples(self, phi: Array, y: Array) -> Samples:
+        """The linear regression that an estimator was given, (T, n) and (T,)."""
+        own = self.signals
+        return Samples(
+            np.ascontiguousarray(phi),
+            y[:, None],
+            tuple(own.model.terms(self.inputs, self.output)),
+            (self.output,),
+            described(self.named, self.output, self.inputs),
+            self.record.clock,
+            self.record.name,
+            found=self.record.found,
+            measured=own.y,
+            origin=own.model.origin(first_values(np.column_stack([own.inputs, own.output]))),
+        ).check()
+
+    def plain_samples(self) -> Samples:
+        """That of the model that never forgets."""
+        plain = self.signals.plain
+        return self.samples(plain["phi"], plain["y"])
+
+
+def recorded(
+    record: Record,
+    outputs: Sequence[str],
+    inputs: Sequence[str],
+    named: NamedModel,
+    offset: bool = True,
+    **settings: Any,
+) -> Recorded:
+    """Find the signals of a model of one output in a record.
+
+    `settings` are those of the class: rule, gate, initial_covariance, dtype.
+    """
+    if len(outputs) != 1:
+        raise RecordError(f"a model {named.name} has one output; {len(outputs)} columns are named")
+    refuse_repeats(outputs, inputs)
+    made = named.make(offset=offset, **settings)
+    y, u = columns(record, outputs), columns(record, inputs)
+    try:
+        rows = with_gaps(stretches(record), len(y), made.reach_of(len(inputs)))
+        made.at_rest(len(inputs))
+    except InvalidInput as error:
+        raise RecordError(str(error)) from None
+    padded = np.vstack([np.hstack([y, u]), np.full((1, 1 + len(inputs)), np.nan)])[rows]
+    own = np.flatnonzero(rows < len(y))
+    signals = Signals(made, np.ascontiguousarray(padded[:, 1:]), padded[:, 0].copy(), own)
+    return Recorded(record, outputs[0], inputs, named, signals)
 
 
 @dataclass(frozen=True)
@@ -52,112 +118,64 @@ class Learned:
         """The trace of the linear regression with the estimates and errors of the model."""
         return replace(trace, theta=self.theta[:, :, np.newaxis], error=self.error)
 
-    def blur(self, trace: Trace) -> Trace:
-        """The trace without a variance of the offset.
+    def back(self, trace: Trace) -> Trace:
+        """The trace with P of signals as they are; the variance of the offset changes in place.
 
-        The estimator knows that of signals measured from their first values; what it is of signals
-        as they are hangs on all other parameters, too.
+        It is exact after each piece of the run, and drawn straight in between.
         """
-        variance = trace.variance.copy()
-        variance[:, [name == CONSTANT for name in self.samples.regressors]] = np.nan
-        return replace(trace, variance=variance)
-
-
-def parse(text: str) -> tuple[str, dict[str, Any]]:
-    """Read a structure and its orders.
-
-    Examples
-    --------
-    >>> parse("armax:na=2,nb=2,nc=1,nk=1")
-    ('armax', {'na': 2, 'nb': 2, 'nc': 1, 'nk': 1})
-    >>> parse("oe:nb=2/1,nf=2/0,nk=1")
-    ('oe', {'nb': [2, 1], 'nf': [2, 0], 'nk': 1})
-    """
-    name, _, orders = text.partition(":")
-    name = name.strip().lower()
-    if name not in CLASSES:
-        raise RecordError(f"the model {name!r} is not known; there are: {', '.join(CLASSES)}")
-    allowed, found = structures()[name][1], {}
-    for part in filter(None, (part.strip() for part in orders.split(","))):
-        match = ORDER.match(part)
-        if match is None:
-            raise RecordError(
-                f"{part!r} is not an order; write {example(name)}, "
-                "with nb=2/1 for inputs of different orders"
-            )
-        if match["name"] not in allowed:
-            raise RecordError(f"a model {name} has no {match['name']}; it has {', '.join(allowed)}")
-        values = [int(value) for value in match["values"].split("/")]
-        found[match["name"]] = values[0] if len(values) == 1 else values
-    return name, found
-
-
-def example(name: str) -> str:
-    """How a model of this structure is written.
-
-    Examples
-    --------
-    >>> example("oe")
-    'oe:nb=1,nf=1,nk=1'
-    """
-    return f"{name}:" + ",".join(f"{order}=1" for order in structures()[name][1])
+        origin = self.samples.origin
+        if origin is None:
+            return trace
+        path = zip(self.theta[trace.rows], trace.covariances, strict=True)
+        ends = [origin.covariance(theta, each)[-1, -1] for theta, each in path]
+        trace.variance[:, -1] = np.interp(np.arange(len(trace.variance)), trace.rows, ends)
+        return replace(trace, covariance=origin.covariance(self.theta[-1], trace.covariance))
 
 
 def learned(
     record: Record,
     outputs: Sequence[str],
     inputs: Sequence[str],
-    model: str,
+    named: NamedModel,
     offset: bool = True,
     **settings: Any,
 ) -> Learned:
-    """Identify a model such as ``"armax:na=2,nb=2,nc=1,nk=1"`` of one output over a record.
+    """Identify a model of one output over a record; see `recorded`."""
+    found = recorded(record, outputs, inputs, named, offset, **settings)
+    signals = found.signals
 
-    Across a gap of the clock the model runs on its own predictions, and samples whose lags cross it
-    are left out. `settings` are those of the class: rule, gate, initial_covariance, dtype.
-    """
-    name, orders = parse(model)
-    if len(outputs) != 1:
-        raise RecordError(f"a model {name} has one output; {len(outputs)} columns are named")
-    refuse_repeats(outputs, inputs)
-    fitted = CLASSES[name](**orders, offset=offset, **settings)
-    y, u = columns(record, outputs), columns(record, inputs)
-    rows = with_gaps(stretches(record), len(y), fitted.reach_of(len(inputs)))
-    padded = np.vstack([np.hstack([y, u]), np.full((1, 1 + len(inputs)), np.nan)])[rows]
-    signals = padded[:, 1:] if inputs else None, padded[:, 0]
-    kept = fitted.course(*signals, ("phi", "y", "theta", "error"))
-    never = CLASSES[name](**orders, offset=offset, **settings | {"rule": "none"})
-    plain = never.course(*signals, "error")["error"]
-    own = rows < len(y)
-    samples = Samples(
-        np.ascontiguousarray(kept["phi"][own]),
-        kept["y"][own, None],
-        tuple(fitted.terms(inputs, outputs[0])),
-        tuple(outputs),
-        described(name, orders, outputs[0], inputs),
-        record.clock,
-        record.name,
-        found=record.found,
-        measured=y,
-    )
-    return Learned(samples.check(), kept["theta"][own], kept["error"][own, None], plain[own, None])
+    def course(rule: Any, *names: str) -> dict[str, Array]:
+        model = named.make(offset=offset, **settings | {"rule": rule})
+        u = signals.inputs if len(inputs) else None
+        kept = model.course(u, signals.output, names)
+        return {name: kept[name][signals.rows] for name in names}
+
+    kept = course(settings.get("rule", "auto"), "phi", "y", "theta", "error")
+    plain = course("none", "error")
+    samples = found.samples(kept["phi"], kept["y"])
+    return Learned(samples, kept["theta"], kept["error"][:, None], plain["error"][:, None])
 
 
-def linear(model: str) -> list[int] | None:
-    """The orders na, nb, nk of a model that is linear in its parameters; None for another.
+def which(
+    formula: str | None, arx: Sequence[int] | None, model: str | None
+) -> tuple[Sequence[int] | None, NamedModel | None]:
+    """What the model is: ARX orders, or a model that is not linear in its parameters, or neither.
 
     Examples
     --------
-    >>> linear("fir:nb=3"), linear("arx:na=2,nb=1,nk=1"), linear("oe:nb=1,nf=1,nk=1")
-    ([0, 3, 0], [2, 1, 1], None)
+    >>> which(None, None, "fir:nb=3"), which(None, None, "oe:nb=1,nf=1,nk=1")[0]
+    (((0, 3, 0), None), None)
     """
-    name, orders = parse(model)
-    made = CLASSES[name](**orders)
-    if isinstance(made, Polynomial):
-        return None
-    if not all(isinstance(order, int) for order in (made.nb, made.nk)):
-        raise RecordError(f"a model {name} has the same orders for all inputs here, as in nb=2")
-    return [made.na, made.nb, made.nk]
+    if model is None:
+        return arx, None
+    if formula is not None or arx is not None:
+        raise RecordError("say the model once: as a model, by arx, or by a formula")
+    try:
+        named = NamedModel.parse(model)
+        orders = named.arx
+    except InvalidInput as error:
+        raise RecordError(str(error)) from None
+    return (None, named) if orders is None else ((orders.na, orders.nb, orders.nk), None)
 
 
 def with_gaps(parts: Sequence[slice], total: int, reach: int) -> NDArray[np.int64]:
@@ -173,17 +191,14 @@ def with_gaps(parts: Sequence[slice], total: int, reach: int) -> NDArray[np.int6
     return np.concatenate([rows for part in each for rows in (nothing, part)][1:])
 
 
-def described(name: str, orders: dict[str, Any], output: str, inputs: Sequence[str]) -> str:
+def described(named: NamedModel, output: str, inputs: Sequence[str]) -> str:
     """The model in words.
 
     Examples
     --------
-    >>> described("oe", {"nb": [2, 1], "nf": 1}, "T", ["u", "v"])
+    >>> described(NamedModel.parse("oe:nb=2/1,nf=1"), "T", ["u", "v"])
     'OE(nb=2/1, nf=1) of T on u, v'
     """
-    each = {
-        order: "/".join(map(str, value)) if isinstance(value, list) else value
-        for order, value in orders.items()
-    }
-    words = f"{name.upper()}({', '.join(f'{order}={value}' for order, value in each.items())})"
+    each = (f"{order}={in_text(value)}" for order, value in named.orders)
+    words = f"{named.name.upper()}({', '.join(each)})"
     return f"{words} of {output}" + (f" on {', '.join(inputs)}" if inputs else "")

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from forgetting.models.signal_origin import SignalOrigin
 from forgetting.record.clock import Clock
 from forgetting.record.found import Found
 from forgetting.words.errors import RecordError
@@ -45,6 +46,8 @@ class Samples:
     measured : ndarray, shape (T, m), or None
         The outputs as they were measured, where y is what a model with coloured noise made of them
         so that it is linear in the parameters.
+    origin : SignalOrigin or None
+        What such a model with a constant measures its signals from.
     """
 
     phi: Array
@@ -57,6 +60,12 @@ class Samples:
     cut: int = 0
     found: Found = field(default_factory=Found)
     measured: Array | None = None
+    origin: SignalOrigin | None = None
+
+    @property
+    def is_pseudolinear(self) -> bool:
+        """Whether regressors follow from the estimates, as they do where noise is coloured."""
+        return self.measured is not None
 
     @property
     def as_measured(self) -> Array:

@@ -18,12 +18,22 @@ from forgetting.analysis import Certificate, certify
 from forgetting.record.identification import Identification
 from forgetting.record.moved import as_run
 from forgetting.record.origin import origin
-from forgetting.record.samples import pieces
+from forgetting.record.samples import Samples, pieces
 
 Array = NDArray[np.float64]
 
 MOST = 5_000_000
 """Numbers in all P examined; the analysis needs some ten arrays of that size."""
+SETTLING = 160
+"""Samples a parameter after which those of a model with coloured noise count 95 % or more."""
+PSEUDOLINEAR = (
+    "The model is not linear in its parameters: its regressors are made from the estimates, and "
+    "its errors are linear in the parameters only near the truth. What is said of P, excitation "
+    "and windup holds for the linear regression that was run. What is said of the error of the "
+    "estimates, and the intervals, hold near the truth alone: from far away convergence is not "
+    "guaranteed, and a minimum may be one of several (Ljung 1999, chapter 11)."
+)
+"""What of the theory does not hold where regressors follow from the estimates."""
 OUTPUTS = ("error", "forgetting_factor", "skipped", "covariance", "prior_covariance", "weight")
 
 
@@ -45,6 +55,31 @@ def in_units(run: Any, scale: Array) -> InUnits:
     # of several outputs as targets of one row, not as rows
     error = run.error[:, np.newaxis] if run.error.ndim == 2 else run.error
     return InUnits(error, run.forgetting_factor, run.skipped, run.weight, after, prior)
+
+
+def reservation(samples: Samples) -> str | None:
+    """What of the theory does not hold for the model of these samples; None where all of it does.
+
+    Examples
+    --------
+    >>> phi, y = np.ones((3, 1)), np.ones((3, 1))
+    >>> reservation(Samples(phi, y, ("1",), ("y",), "y ~ 1", None, "")) is None
+    True
+    """
+    return PSEUDOLINEAR if samples.is_pseudolinear else None
+
+
+def begin(samples: Samples) -> int:
+    """The row from which on all samples count alike.
+
+    A model that makes its own regressors lets its first samples count less, by what they were
+    multiplied with; intervals would be judged by errors that are too small. At most half of the
+    record is left out.
+    """
+    if not samples.is_pseudolinear:
+        return 0
+    settled = np.searchsorted(np.cumsum(samples.complete), SETTLING * samples.phi.shape[1])
+    return min(int(settled), len(samples.y) // 2)
 
 
 def theory(
@@ -71,7 +106,7 @@ def theory(
     """
     samples = origin(found.samples, moves=initial_covariance is None).moved(found.samples)
     n, total = samples.parameters, len(samples)
-    start = max(0, total - max(MOST // n**2, 2 * n))
+    start = max(begin(found.samples), total - max(MOST // n**2, 2 * n))
     estimator = fg.RLS(
         n,
         rule=rule,

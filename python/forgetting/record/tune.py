@@ -6,18 +6,23 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from forgetting.models.named import NamedModel
 from forgetting.models.orders import Orders
 from forgetting.record.identify import build, listed
 from forgetting.record.missing import Words
 from forgetting.record.origin import origin
+from forgetting.record.polynomial import recorded
 from forgetting.record.read import Record, read
 from forgetting.record.samples import Samples
 from forgetting.record.usage import Usage
+from forgetting.tuning import structures
 from forgetting.tuning.choose import SHARE, choose
-from forgetting.tuning.orders import USUAL_NA, order_grid, widest
+from forgetting.tuning.orders import USUAL_NA, order_grid
 from forgetting.tuning.problem import Problem
+from forgetting.tuning.regression import Regression
 from forgetting.tuning.result import Tuning
 from forgetting.tuning.runner import Progress
+from forgetting.tuning.structures import ModelOrders, widest_of
 from forgetting.words.errors import RecordError
 
 if TYPE_CHECKING:
@@ -33,6 +38,7 @@ def tune(
     output: str | Sequence[str] = (),
     input: str | Sequence[str] = (),
     arx: OrderRanges | None = None,
+    model: str | None = None,
     offset: bool = True,
     rules: str | Sequence[str] = "shortlist",
     rates: bool = True,
@@ -59,6 +65,9 @@ def tune(
     arx : sequence of three, optional
         Orders na, nb, nk, each a number or several to try; without it na and nb from 1 to 4 and nk
         from 0 to 3 are tried, where outputs are named.
+    model : str, optional
+        In the place of `arx` a structure and its orders, each a number or a range, such as
+        ``"armax:na=1-3,nb=1-3,nc=0-2,nk=1-4"``; see `forgetting.tune_model`.
     rules, rates, priors, share, threads, progress
         See `forgetting.tune`.
 
@@ -85,17 +94,20 @@ def tune(
     """
     source = read(record, time, gap=gap, missing=missing, part=part, encoding=encoding)
     outputs, inputs = listed(output), listed(input)
-    models = models_of(formula, outputs, inputs, arx)
+    models = models_of(formula, outputs, inputs, arx, model)
     given = [each for each in models if each is not None]
 
     def samples(orders: Orders | None) -> Samples:
         lags = None if orders is None else (orders.na, orders.nb, orders.nk)
         return build(source, formula, outputs, inputs, lags, offset)
 
-    def make(orders: Orders | None) -> Problem:
+    def make(orders: ModelOrders | None) -> Problem:
+        if isinstance(orders, NamedModel):
+            return recorded(source, outputs, inputs, orders, offset).signals
         return problem(samples(orders))
 
-    covering = samples(widest(given) if given else None)
+    widest = widest_of(given, len(inputs)) if given else None
+    covering = None if isinstance(widest, NamedModel) else samples(widest)
     usage = Usage(
         path=str(record) if isinstance(record, str | Path) else None,
         formula=formula,
@@ -111,7 +123,7 @@ def tune(
     return choose(
         make,
         models,
-        problem(covering),
+        make(widest) if covering is None else problem(covering),
         usage.lines,
         rules=rules,
         rates=rates,
@@ -119,25 +131,33 @@ def tune(
         share=share,
         threads=threads,
         progress=progress,
-        outputs=covering.outputs,
+        outputs=outputs if covering is None else covering.outputs,
     )
 
 
 def problem(samples: Samples) -> Problem:
     """The samples as the search takes them."""
-    return Problem(samples.phi, samples.y, origin(samples).moved(samples).rows(slice(None)))
+    return Regression(samples.phi, samples.y, origin(samples).moved(samples).rows(slice(None)))
 
 
 def models_of(
-    formula: str | None, outputs: list[str], inputs: list[str], arx: OrderRanges | None
-) -> list[Orders] | list[None]:
+    formula: str | None,
+    outputs: list[str],
+    inputs: list[str],
+    arx: OrderRanges | None,
+    model: str | None,
+) -> Sequence[ModelOrders | None]:
     """The models to try; [None] where a formula says the model."""
+    if model is not None and (formula is not None or arx is not None):
+        raise RecordError("say the model once: as a model, by arx, or by a formula")
     if formula is not None:
         if arx is not None:
             raise RecordError("say the model by a formula, or by output, input and arx; not both")
         return [None]
     if not outputs:
         raise RecordError("say the model: a formula, or output columns, with ARX orders or without")
+    if model is not None:
+        return structures.models_of(model, len(inputs))
     if arx is None:
         return order_grid(USUAL_NA, None, None, len(inputs))
     if len(arx) != 3:

@@ -9,9 +9,11 @@ from typing import Any
 
 from forgetting.choice import Choice
 from forgetting.choices import Rate, Rule
+from forgetting.models.named import NamedModel
 from forgetting.tuning.candidate import Candidate
 from forgetting.tuning.code import code, given
 from forgetting.tuning.result import Lines
+from forgetting.tuning.structures import ModelOrders
 
 
 @dataclass(frozen=True)
@@ -54,12 +56,11 @@ class Usage:
         reads = self.path is not None and any(opened.values())
         if reads:
             source = f"read({arguments(source, opened)})"
-        orders = candidate.orders
         values = {
             "formula": self.formula,
             "output": list(self.outputs),
             "input": list(self.inputs),
-            "arx": None if orders is None else (orders.na, orders.nb, orders.nk),
+            **lags(candidate.orders),
             "offset": None if self.offset else False,
             "rule": candidate.rule,
             "initial_covariance": None
@@ -79,13 +80,12 @@ class Usage:
         """A line for the shell; None where the record is no file."""
         if self.path is None:
             return None
-        orders = candidate.orders
         words = ["forgetting", "identify", self.path]
         words += option("--formula", self.formula)
         words += [word for name in self.outputs for word in ("--output", name)]
         words += [word for name in self.inputs for word in ("--input", name)]
-        if orders is not None:
-            words += ["--arx", f"{orders.na},{orders.nb},{orders.nk}"]
+        for name, value in lags(candidate.orders).items():
+            words += [f"--{name}", value if isinstance(value, str) else ",".join(map(str, value))]
             words += [] if self.offset else ["--no-offset"]
         words += option("--time", self.time) + option("--gap", self.gap)
         words += [word for each in self.missing for word in ("--missing", str(each))]
@@ -94,6 +94,15 @@ class Usage:
         prior = candidate.initial_covariance
         words += [] if prior is None else ["--initial-covariance", text(list(prior))]
         return shlex.join(words)
+
+
+def lags(orders: ModelOrders | None) -> dict[str, Any]:
+    """The orders by the name of their argument: `arx` or `model`."""
+    if orders is None:
+        return {}
+    if isinstance(orders, NamedModel):
+        return {"model": str(orders)}
+    return {"arx": (orders.na, orders.nb, orders.nk)}
 
 
 def arguments(first: str, values: dict[str, Any]) -> str:

@@ -10,6 +10,7 @@ from forgetting import plot
 from forgetting.analysis import Certificate
 from forgetting.files import check_outputs
 from forgetting.record.identification import Identification
+from forgetting.record.theory import reservation
 from forgetting.report.page import Block, Page, Table, write
 from forgetting.report.single import figures, parameters, signals
 from forgetting.report.svg import inline
@@ -32,7 +33,7 @@ def save_certificate(
     with plot.styled():
         blocks = [
             trust(found),
-            theory(certificate, first),
+            theory(found, certificate, first),
             conditions(certificate),
             *(signals(found, output) for output in range(len(found.samples.outputs))),
             parameters(found),
@@ -48,7 +49,7 @@ def save_certificate(
     write(page, path)
 
 
-def theory(certificate: Certificate, first: int) -> Block:
+def theory(found: Identification, certificate: Certificate, first: int) -> Block:
     """The conclusions of Theorem 2."""
     rows = [
         (item.name, item.outcome, f"{item.meaning} ({item.reason})")
@@ -58,7 +59,7 @@ def theory(certificate: Certificate, first: int) -> Block:
     text = (
         "What generalized forgetting guarantees of the estimator if the model is right and its "
         "parameters stand still (Lai and Bernstein, Theorem 2). It says nothing of whether the "
-        f"model is right.{part}"
+        f"model is right.{part} {reservation(found.samples) or ''}".rstrip()
     )
     table = Table(("the error is", "", "because"), rows, prose=True)
     return Block("Stability of the estimator", text, table)

@@ -11,6 +11,7 @@ from forgetting.models.lags import names, regressors
 from forgetting.record.dynamics import CONSTANT, checked_orders, refuse_repeats
 from forgetting.stream.history import History
 from forgetting.stream.rows import Array, Flags
+from forgetting.stream.samples import Samples
 
 
 class Dynamics:
@@ -28,7 +29,7 @@ class Dynamics:
         self.regressors = (*labels, CONSTANT) if offset else labels
         self.history = History(self.orders.reach, len(self.columns))
 
-    def samples(self, values: Array, gap: Flags) -> tuple[Array, Array]:
+    def samples(self, values: Array, gap: Flags) -> Samples:
         """See `Model`."""
         together, stretch, before = self.history.behind(values, gap)
         y, u = together[:, : len(self.outputs)], together[:, len(self.outputs) :]
@@ -38,7 +39,7 @@ class Dynamics:
             phi[across[:, None], self._columns_of(lag)] = np.nan
         if self.constant is not None:
             phi = np.column_stack([phi, np.where(np.isnan(phi).any(axis=1), np.nan, 1.0)])
-        return phi[before:], y[before:]
+        return Samples(phi[before:], y[before:])
 
     def _columns_of(self, lag: int) -> list[int]:
         """Places of the regressors with this lag."""

@@ -24,6 +24,7 @@ from forgetting.record.terms import shortened
 from forgetting.stream.form import Form
 from forgetting.stream.history import History
 from forgetting.stream.rows import Array, Flags
+from forgetting.stream.samples import Samples
 from forgetting.words.errors import RecordError
 
 ROW_BY_ROW = frozenset(("lag", "I", "Q", "log", "log10", "log2", "exp", "exp10", "exp2", "abs"))
@@ -56,14 +57,16 @@ class Regression:
         place = self.regressors.index(INTERCEPT) if INTERCEPT in self.regressors else None
         self.constant = place
 
-    def samples(self, values: Array, gap: Flags) -> tuple[Array, Array]:
+    def samples(self, values: Array, gap: Flags) -> Samples:
         """See `Model`; what is not finite is missing."""
+        if not len(values):
+            return Samples(np.empty((0, len(self.regressors))), np.empty((0, len(self.outputs))))
         together, stretch, before = self.history.behind(values, gap)
         made = self._matrices(pd.DataFrame(together, columns=list(self.columns)), stretch)
         phi, y = (as_floats(side, self.formula)[before:] for side in (made.rhs, made.lhs))
         phi[np.isinf(phi)] = np.nan
         y[np.isinf(y)] = np.nan
-        return phi, y
+        return Samples(phi, y)
 
     def _matrices(self, frame: pd.DataFrame, stretch: NDArray[np.int64]) -> Any:
         return evaluate(self.parsed, self.formula, frame, Lag(len(frame), stretch))

@@ -21,6 +21,7 @@ from forgetting.record.origin import weighted_sum
 from forgetting.record.trace import USED
 from forgetting.stream.rows import Array, Flags
 from forgetting.stream.running import run_all
+from forgetting.stream.samples import Samples, Seen
 from forgetting.words.errors import RecordError
 
 ROOM = 4_000_000
@@ -70,6 +71,8 @@ class Learner:
         Whether they are wanted; that of the constant needs all of P at every row.
     also : tuple of str
         Further outputs of `run` that are wanted.
+    makes_regressors : bool
+        Whether the model makes regressors from its own estimates, and tells these by `Seen`.
     """
 
     def __init__(
@@ -83,6 +86,7 @@ class Learner:
         dtype: str,
         standard_errors: bool,
         also: tuple[str, ...],
+        makes_regressors: bool = False,
     ) -> None:
         settings = {"targets": outputs, "initial_covariance": initial_covariance, "dtype": dtype}
         self.estimator = estimator_for(regressors, rule, gate=gate, **settings)
@@ -90,6 +94,7 @@ class Learner:
         self.n, self.m = regressors, outputs
         self.wants_errors = standard_errors
         self.also = also
+        self.makes_regressors = makes_regressors
         self.phi0: Array | None = None
         self.y0 = np.zeros(outputs)
         self.last = LastTime()
@@ -99,10 +104,9 @@ class Learner:
         self.total = np.zeros(outputs)
         """Sum of e² / (1 + leverage) over the used samples but the first n."""
 
-    def take(
-        self, phi: Array, y: Array, time: Array | None = None
-    ) -> tuple[Estimates, Array, Array]:
+    def take(self, samples: Samples, time: Array | None = None) -> tuple[Estimates, Array, Array]:
         """Learn from rows; also the rows as they were measured from the origin."""
+        phi, y = samples.phi, samples.y
         start = self._find_origin(phi, y)
         # A difference of very large numbers is infinite, and refused like they are.
         with np.errstate(over="ignore"):
@@ -113,6 +117,8 @@ class Learner:
             for part in self._parts(len(phi))
         ]
         found = {key: np.concatenate([each[key] for each in pieces]) for key in pieces[0]}
+        if samples.seen is not None:
+            return self._of_model(found, samples.seen), moved, target
         return self._estimates(found, y, start), moved, target
 
     def _find_origin(self, phi: Array, y: Array) -> int:
@@ -133,7 +139,7 @@ class Learner:
 
     @property
     def _needs_covariance(self) -> bool:
-        return self.wants_errors and self.constant is not None
+        return self.wants_errors and (self.constant is not None or self.makes_regressors)
 
     def _run(self, phi: Array, y: Array, time: Array | None) -> dict[str, Any]:
         wanted = ["theta", "error", "leverage", "skipped", "windup", *self.also]
@@ -160,6 +166,29 @@ class Learner:
         others = {name: found[name] for name in (*self.also, "windup")}
         return Estimates(
             theta, error, y - error, errors, noise, found["skipped"], found["refused"], others
+        )
+
+    def _of_model(self, found: dict[str, Any], seen: Seen) -> Estimates:
+        """With the estimates and errors of the model itself, not of the linear regression."""
+        self.reason = self.reason or seen.reason
+        noise = self._noise(seen.error, found["leverage"], found["skipped"] == USED)
+        errors = None
+        if self.wants_errors:
+            variance = np.einsum("tii->ti", found["covariance"]).copy()
+            if seen.origin is not None:
+                change = seen.origin.gradient(seen.theta)
+                products = row_sum(change, found["covariance"])
+                variance[:, -1] = row_sum(change, products[:, :, None])[:, 0]
+            errors = np.sqrt(variance[:, :, None] * noise[:, None, :])
+        return Estimates(
+            seen.theta[:, :, None],
+            seen.error,
+            seen.measured - seen.error,
+            errors,
+            noise,
+            found["skipped"],
+            found["refused"] | seen.refused,
+            {name: found[name] for name in (*self.also, "windup")},
         )
 
     def _variance(self, found: dict[str, Any]) -> Array:
@@ -213,6 +242,20 @@ class Learner:
         self.y0, self.used = np.array(state["y0"]), state["used"]
         self.last = LastTime(state["last"])
         self.total = np.array(state["total"])
+
+
+def row_sum(weights: Array, values: Array) -> Array:
+    """Sum of weights[t, i] times values[t, i], in this order; see `weighted_sum`.
+
+    Examples
+    --------
+    >>> row_sum(np.array([[1.0, 2.0]]), np.array([[[3.0], [4.0]]]))
+    array([[11.]])
+    """
+    total = weights[:, 0, None] * values[:, 0]
+    for i in range(1, weights.shape[1]):
+        total = total + weights[:, i, None] * values[:, i]
+    return np.asarray(total)
 
 
 def in_bank(estimator: Any) -> bool:

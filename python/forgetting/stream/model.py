@@ -5,10 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, Protocol
 
+from forgetting.models.named import NamedModel
 from forgetting.record.names import clean
 from forgetting.stream.dynamics import Dynamics
 from forgetting.stream.form import Form
 from forgetting.stream.rows import Array, Flags
+from forgetting.stream.samples import Samples
+from forgetting.stream.settings import Settings
+from forgetting.stream.signals import Signals
 from forgetting.words.errors import RecordError
 
 
@@ -30,7 +34,7 @@ class Model(Protocol):
     regressors: tuple[str, ...]
     constant: int | None
 
-    def samples(self, values: Array, gap: Flags) -> tuple[Array, Array]:
+    def samples(self, values: Array, gap: Flags) -> Samples:
         """Regressors (T, n) and outputs (T, m) of rows that go on from those before.
 
         Parameters
@@ -42,7 +46,7 @@ class Model(Protocol):
         ...
 
     def state(self) -> dict[str, Any]:
-        """The rows that lags still reach."""
+        """The rows that lags still reach, or what else the next row needs."""
         ...
 
     def restore(self, state: dict[str, Any]) -> None:
@@ -50,14 +54,7 @@ class Model(Protocol):
         ...
 
 
-def make_model(
-    form: Form,
-    formula: str | None,
-    outputs: Sequence[str],
-    inputs: Sequence[str],
-    arx: Sequence[int] | None,
-    offset: bool,
-) -> Model:
+def make_model(form: Form, own: Settings, rule: Any) -> Model:
     """The model of a stream with these columns.
 
     Raises
@@ -65,17 +62,26 @@ def make_model(
     RecordError
         When a column is not there, or half of one model stands with half of another.
     """
-    if formula is not None:
-        if outputs or inputs or arx is not None:
+    if own.formula is not None:
+        if own.output or own.input or own.arx is not None:
             raise RecordError("say the model by a formula, or by output, input and arx; not both")
         # Imported here: a program that only wants ARX need not have formulaic.
         from forgetting.stream.formula import Regression
 
-        return Regression(formula, form)
-    if not outputs:
+        return Regression(own.formula, form)
+    if not own.output:
         raise RecordError("say the model: a formula, or output columns, with inputs or ARX orders")
-    orders = (0, 1, 0) if arx is None else arx
-    return Dynamics(named(form, outputs), named(form, inputs), orders, offset)
+    outputs, inputs = named(form, own.output), named(form, own.input)
+    if own.model is not None:
+        settings = {
+            "gate": own.gate,
+            "initial_covariance": own.initial_covariance,
+            "dtype": own.dtype,
+        }
+        model = NamedModel.parse(own.model)
+        return Signals(outputs, inputs, model, own.offset, rule, **settings)
+    orders = (0, 1, 0) if own.arx is None else own.arx
+    return Dynamics(outputs, inputs, orders, own.offset)
 
 
 def named(form: Form, given: Sequence[str]) -> list[str]:

@@ -9,6 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from forgetting.record.polynomial import which
+from forgetting.words.errors import RecordError
+
 
 @dataclass(frozen=True)
 class Settings:
@@ -20,6 +23,8 @@ class Settings:
         Columns of an ARX model; without `arx` of a regression on the inputs of the same row.
     arx : sequence of three int, optional
         Orders na, nb, nk.
+    model : str, optional
+        In the place of `arx` a structure and its orders, such as ``"armax:na=1,nb=1,nc=1,nk=1"``.
     formula : str, optional
         A regression whose terms need no more than the row and its lags.
     offset : bool
@@ -37,6 +42,7 @@ class Settings:
     output: Sequence[str] = ()
     input: Sequence[str] = ()
     arx: Sequence[int] | None = None
+    model: str | None = None
     formula: str | None = None
     offset: bool = True
     rule: Any = "auto"
@@ -49,6 +55,15 @@ class Settings:
     missing: Sequence[str] = ()
     separator: str | None = None
     names: Sequence[str] | None = None
+
+    def __post_init__(self) -> None:
+        arx, named = which(self.formula, self.arx, self.model)
+        if named is not None and self.half_life is not None:
+            raise RecordError(
+                f"the model {self.model} forgets by samples; leave out what counts time"
+            )
+        object.__setattr__(self, "arx", arx)
+        object.__setattr__(self, "model", None if named is None else str(named))
 
     def as_data(self) -> dict[str, str]:
         """Every setting as text, to be compared with that of a saved state."""

@@ -62,8 +62,9 @@ def check_settings(path: Path, saved: Mapping[str, Any], now: Mapping[str, Any])
         Naming the first that differs.
     """
     for name in now:
-        if saved.get(name) != now[name]:
+        before = saved.get(name, "None")  # a setting that there was not yet
+        if before != now[name]:
             raise RecordError(
-                f"--state {path} was made with {name} {saved.get(name)}, and now it is "
+                f"--state {path} was made with {name} {before}, and now it is "
                 f"{now[name]}; go on with the same, or name another state"
             )

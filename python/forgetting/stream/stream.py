@@ -21,8 +21,10 @@ from forgetting.stream.model import Model, make_model
 from forgetting.stream.output import Batch, Output, with_alarms
 from forgetting.stream.parse import Parser
 from forgetting.stream.position import Position
-from forgetting.stream.rows import Array, Rows
+from forgetting.stream.rows import Rows
+from forgetting.stream.samples import Samples
 from forgetting.stream.settings import Settings
+from forgetting.stream.signals import Signals
 from forgetting.stream.stamps import Stamps, find_stamps
 from forgetting.stream.tally import Tally
 from forgetting.stream.watch import Watch
@@ -134,7 +136,7 @@ class Stream:
         self.by_clock = own.half_life is not None and not counts(own.half_life)
         if self.by_clock and stamps is None:
             raise RecordError("a half-life in time needs a clock, and the stream has none")
-        model: Model = make_model(form, own.formula, own.output, own.input, own.arx, own.offset)
+        model: Model = make_model(form, own, rule)
         self.model = model
         names = field_names.chosen(self.fields, stamps is not None, own.rule == "auto")
         self.learner = Learner(
@@ -147,6 +149,7 @@ class Stream:
             own.dtype,
             self.standard_errors or "standard_errors" in names,
             field_names.wanted(names),
+            makes_regressors=isinstance(model, Signals),
         )
         bank = self.learner.estimator if in_bank(self.learner.estimator) else None
         members = 0 if bank is None else len(bank.members)
@@ -161,8 +164,9 @@ class Stream:
         if not len(rows):
             return
         marks = self.clock.mark(rows)
-        phi, y = self._samples(rows, marks)
-        found, moved, target = self.learner.take(phi, y, marks.time if self.by_clock else None)
+        samples = self._samples(rows, marks)
+        found, moved, target = self.learner.take(samples, marks.time if self.by_clock else None)
+        y = samples.y if samples.seen is None else samples.seen.measured
         first = self.tally.rows + 1
         alarms = self.watch.take(moved, target, found.others["windup"])
         self._count(rows, marks, found)
@@ -170,16 +174,12 @@ class Stream:
         made.lines += lines if self.to == "csv" else with_alarms(lines, alarms, first)
         made.batches.append(Batch(first, rows, y, found, alarms))
 
-    def _samples(self, rows: Rows, marks: Marks) -> tuple[Array, Array]:
+    def _samples(self, rows: Rows, marks: Marks) -> Samples:
         """Regressors and outputs; a repeated row has none, and no lag sees it."""
         if not marks.repeated.any():
             return self.model.samples(rows.values, marks.gap)
         new = ~marks.repeated
-        phi = np.full((len(rows), len(self.model.regressors)), np.nan)
-        y = np.full((len(rows), len(self.model.outputs)), np.nan)
-        if new.any():
-            phi[new], y[new] = self.model.samples(rows.values[new], marks.gap[new])
-        return phi, y
+        return self.model.samples(rows.values[new], marks.gap[new]).spread(new)
 
     def _count(self, rows: Rows, marks: Marks, found: Estimates) -> None:
         tally = self.tally

@@ -8,6 +8,7 @@ from typing import Any
 
 from forgetting._core import InvalidInput
 from forgetting.models.lags import names
+from forgetting.models.named import NamedModel
 from forgetting.models.orders import Orders
 from forgetting.words.duration import seconds_of
 
@@ -93,6 +94,28 @@ class Model:
         return cls(**{**values, "phi": tuple(values["phi"]), "arx": orders})
 
 
+def arx_of(model: str) -> Orders:
+    """The orders of a named model, which must be linear in its parameters.
+
+    Raises
+    ------
+    forgetting.InvalidInput
+        When it is not, or cannot be read.
+
+    Examples
+    --------
+    >>> arx_of("fir:nb=3,nk=1")
+    Orders(na=0, nb=3, nk=1)
+    """
+    orders = NamedModel.parse(model).arx
+    if orders is None:
+        raise InvalidInput(
+            f"model = {model!r}, allowed: fir, ar and arx; the regressors of others follow from "
+            "the estimates, and a fleet keeps no signals of a model for each key"
+        )
+    return orders
+
+
 def made(
     key: str,
     y: str,
@@ -100,9 +123,14 @@ def made(
     time: str | None,
     offset: bool,
     arx: Sequence[int] | Orders | None,
+    model: str | None,
     gap: Any,
 ) -> Model:
     """The model of what a user gives; one column needs no list, and a gap may be a text."""
+    if model is not None:
+        if arx is not None:
+            raise InvalidInput(f"arx = {arx} and model = {model!r}, allowed: one of them")
+        arx = arx_of(model)
     if arx is not None and not isinstance(arx, Orders):
         if len(arx) != 3:
             raise InvalidInput(f"arx = {tuple(arx)}, allowed: three whole numbers na, nb, nk")

@@ -8,5 +8,6 @@ run in threads, as a run does not hold the interpreter. The test needs SciPy.
 from forgetting.tuning.difference import Difference, difference
 from forgetting.tuning.result import Tuning
 from forgetting.tuning.tune import tune, tune_arx
+from forgetting.tuning.tune_model import tune_model
 
-__all__ = ["Difference", "Tuning", "difference", "tune", "tune_arx"]
+__all__ = ["Difference", "Tuning", "difference", "tune", "tune_arx", "tune_model"]

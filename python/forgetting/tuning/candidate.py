@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from forgetting._core import RLS, Bank
 from forgetting.choices import AXES, Rule
-from forgetting.models.orders import Orders
 from forgetting.tuning.problem import Problem
+from forgetting.tuning.structures import ModelOrders
 
 Array = NDArray[np.float64]
 
@@ -26,23 +26,18 @@ class Candidate:
         The forgetting rule; None is the bank.
     initial_covariance : tuple of float or None
         The diagonal of P before the first sample; None follows the data.
-    orders : Orders or None
-        Of an ARX model.
+    orders : Orders, NamedModel or None
+        Of an ARX model, or a structure with its orders.
     """
 
     rule: Rule | None
     initial_covariance: tuple[float, ...] | None = None
-    orders: Orders | None = None
+    orders: ModelOrders | None = None
 
     def errors(self, problem: Problem, stop: int | None = None) -> Array:
         """One-step errors of the rows before `stop`, (T, m), each from before its sample."""
-        followed = self.initial_covariance is None
-        phi, y = problem.moved if followed else (problem.phi, problem.y)
-        phi, y = phi[:stop], y[:stop]
-        estimator = self.estimator(phi.shape[1], y.shape[1])
-        target = y if y.shape[1] > 1 else y[:, 0]
-        found = estimator.run(phi, target, outputs=("error",), missing="skip")
-        return np.asarray(found.error, dtype=np.float64).reshape(y.shape)
+        estimator = self.estimator(problem.parameters, problem.y.shape[1])
+        return problem.errors(estimator, stop, follows=self.initial_covariance is None)
 
     def estimator(self, parameters: int, targets: int) -> Any:
         """A new estimator."""

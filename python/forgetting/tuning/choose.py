@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from forgetting.models.orders import Orders
 from forgetting.tuning import grid
 from forgetting.tuning.candidate import Candidate
 from forgetting.tuning.problem import Problem, check, split
@@ -12,6 +11,7 @@ from forgetting.tuning.report import report
 from forgetting.tuning.result import Lines, Tuning
 from forgetting.tuning.runner import Make, Progress, Runner
 from forgetting.tuning.search import best_orders, expected, search
+from forgetting.tuning.structures import ModelOrders
 
 SHARE = 2 / 3
 """Of the complete samples, those that choose."""
@@ -19,7 +19,7 @@ SHARE = 2 / 3
 
 def choose(
     make: Make,
-    models: Sequence[Orders | None],
+    models: Sequence[ModelOrders | None],
     covering: Problem,
     say: Callable[[Candidate], Lines],
     *,
@@ -37,7 +37,7 @@ def choose(
     ----------
     make : callable
         Makes the problem of given orders.
-    models : sequence of Orders or None
+    models : sequence of Orders, of NamedModel or of None
         The models to try; [None] for a regression.
     covering : Problem
         A model whose complete samples all models can predict.

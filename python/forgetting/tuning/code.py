@@ -6,6 +6,7 @@ from typing import Any
 
 from forgetting.choice import Choice
 from forgetting.choices import AXES, Rate
+from forgetting.models.named import NamedModel
 from forgetting.tuning.candidate import Candidate
 
 
@@ -37,14 +38,20 @@ def estimator_code(candidate: Candidate, parameters: int, targets: int) -> str:
     return f"fg.RLS({parameters}, rule={code(candidate.rule)}{prior_code(candidate)}{several})"
 
 
-def model_code(candidate: Candidate) -> str:
-    """The ARX model as Python makes it."""
+def model_code(candidate: Candidate, offset: bool = False) -> str:
+    """The dynamic model as Python makes it."""
     orders = candidate.orders
     assert orders is not None
-    lags = f"na={orders.na}, nb={orders.nb}, nk={orders.nk}"
+    if isinstance(orders, NamedModel):
+        name = type(orders.make()).__name__
+        said = {order: list(v) if isinstance(v, tuple) else v for order, v in orders.orders}
+    else:
+        name, said = "ARX", {"na": orders.na, "nb": orders.nb, "nk": orders.nk}
+    lags = ", ".join(f"{order}={value}" for order, value in said.items())
+    lags += ", offset=True" if offset else ""
     if candidate.rule is None:
-        return f"fg.ARX({lags})"
-    return f"fg.ARX({lags}, rule={code(candidate.rule)}{prior_code(candidate)})"
+        return f"fg.{name}({lags})"
+    return f"fg.{name}({lags}, rule={code(candidate.rule)}{prior_code(candidate)})"
 
 
 def prior_code(candidate: Candidate) -> str:

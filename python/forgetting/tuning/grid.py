@@ -142,12 +142,11 @@ def rates(outputs: int) -> list[Rate]:
     ]
 
 
-def priors(phi: Array) -> list[tuple[float, ...]]:
-    """Diagonals of P before the first sample, for regressors of this size, (T, n)."""
-    square = np.nanmean(np.square(phi), axis=0)
-    if not (square > 0).all():
+def priors(squares: Array) -> list[tuple[float, ...]]:
+    """Diagonals of P before the first sample, for regressors with these mean squares, (n,)."""
+    if not (squares > 0).all():
         return []
-    return [tuple(rounded(prior / each) for each in square) for prior in PRIORS]
+    return [tuple(rounded(prior / each) for each in squares) for prior in PRIORS]
 
 
 def rounded(value: float) -> float:

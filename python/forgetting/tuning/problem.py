@@ -1,8 +1,9 @@
-"""Regressors and outputs of one model, and which samples choose and which report."""
+"""The samples of one model, and which of them choose and which report."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,35 +18,46 @@ FEWEST_CHOOSING, FEWEST_REPORTING = 50, 30
 """Scored samples below which a choice, or a report on it, would be of noise."""
 
 
-@dataclass(frozen=True)
-class Problem:
-    """The samples of one model, NaN where a value is missing.
+class Problem(Protocol):
+    """The samples of one model.
 
     Attributes
     ----------
-    phi : ndarray, shape (T, n)
-        Regressors as they are.
     y : ndarray, shape (T, m)
-        Outputs as they are.
-    moved : tuple of two ndarrays
-        Both as an estimator gets them whose prior follows the data: measured from the first sample
-        where the model has a constant, see `forgetting.record.identify`.
+        Outputs as they were measured, NaN where missing.
+    parameters : int
+        Number n of parameters of each output.
     """
 
-    phi: Array
-    y: Array
-    moved: tuple[Array, Array]
+    @property
+    def y(self) -> Array:
+        """See the class."""
+        ...
+
+    @property
+    def parameters(self) -> int:
+        """See the class."""
+        ...
 
     @property
     def complete(self) -> Mask:
-        """Rows without a missing value, (T,)."""
-        missing = np.isnan(self.phi).any(axis=1) | np.isnan(self.y).any(axis=1)
-        return np.asarray(~missing, dtype=np.bool_)
+        """Samples that the model can predict, (T,)."""
+        ...
+
+    def errors(self, estimator: Any, stop: int | None = None, follows: bool = True) -> Array:
+        """One-step errors (stop, m) of a new estimator on the rows before `stop`.
+
+        `follows` says that its prior follows the data. NaN where a sample is not complete.
+        """
+        ...
+
+    def mean_squares(self, stop: int) -> Array:
+        """Of the regressors of the rows before `stop`, (n,)."""
+        ...
 
     def part(self, rows: slice) -> Problem:
         """Some rows, in place of all."""
-        phi, y = self.moved
-        return Problem(self.phi[rows], self.y[rows], (phi[rows], y[rows]))
+        ...
 
 
 @dataclass(frozen=True)
@@ -95,7 +107,7 @@ def split(problem: Problem, share: float) -> Split:
     first = int(share * count[-1]) if len(count) else 0
     row = int(np.searchsorted(count, first, side="right")) if first else 0
     before = np.arange(len(complete)) < row
-    start = max(2 * problem.phi.shape[1], first // 10)
+    start = max(2 * problem.parameters, first // 10)
     return Split(row, known & before & (count > start), known & ~before)
 
 

@@ -8,11 +8,11 @@ import numpy as np
 
 from forgetting._core import NumericalRange
 from forgetting.choices import AXES
-from forgetting.models.orders import Orders
 from forgetting.tuning.baseline import last_measured, rms, typical
 from forgetting.tuning.candidate import Candidate
 from forgetting.tuning.difference import Difference, difference
 from forgetting.tuning.problem import Array, Problem, Split
+from forgetting.tuning.structures import ModelOrders
 
 TUNED, BANK, NO_FORGETTING, LAST_VALUE = "tuned", "bank", "no_forgetting", "last_value"
 WORDS = {
@@ -48,7 +48,7 @@ class Rest:
         return typical(self.errors[name])
 
 
-def report(chosen: Candidate, orders: Orders | None, problem: Problem, split: Split) -> Rest:
+def report(chosen: Candidate, orders: ModelOrders | None, problem: Problem, split: Split) -> Rest:
     """Run what was chosen and its baselines over the whole record, and score the rest.
 
     The estimators have run through the first part when the rest begins, and go on learning, as in
@@ -71,7 +71,7 @@ def report(chosen: Candidate, orders: Orders | None, problem: Problem, split: Sp
     return Rest(scores, differences, failed)
 
 
-def baselines(orders: Orders | None, problem: Problem) -> dict[str, Array]:
+def baselines(orders: ModelOrders | None, problem: Problem) -> dict[str, Array]:
     """Errors of the bank, of no forgetting and of the last value, (T, m)."""
     return {
         BANK: Candidate(None, None, orders).errors(problem),

@@ -7,12 +7,14 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from forgetting.choices import Rule
+from forgetting.models.named import NamedModel
 from forgetting.models.orders import Orders
 from forgetting.tuning.candidate import Candidate
 from forgetting.tuning.code import code
 from forgetting.tuning.problem import Split
 from forgetting.tuning.report import BANK, NO_FORGETTING, WORDS, Rest
 from forgetting.tuning.runner import Trial
+from forgetting.tuning.structures import ModelOrders
 from forgetting.words.rounding import brief
 
 NO_RULE_FORGETS = "none"
@@ -79,8 +81,8 @@ class Tuning:
         return self.candidate.initial_covariance
 
     @property
-    def orders(self) -> Orders | None:
-        """Orders of the ARX model that was chosen."""
+    def orders(self) -> ModelOrders | None:
+        """Orders of the ARX model, or the other structure, that was chosen."""
         return self.candidate.orders
 
     @property
@@ -138,7 +140,7 @@ class Tuning:
             "initial_covariance": None
             if chosen.initial_covariance is None
             else list(chosen.initial_covariance),
-            "orders": orders_as_list(chosen.orders),
+            "orders": orders_as_data(chosen.orders),
             "chosen_on": int(self.split.choosing.sum()),
             "reported_on": int(self.split.reporting.sum()),
             "first_row_of_the_rest": self.split.row,
@@ -185,15 +187,20 @@ def as_data(trial: Trial) -> dict[str, Any]:
     return {
         "stage": trial.stage,
         "rule": "bank" if candidate.rule is None else code(candidate.rule),
-        "orders": orders_as_list(candidate.orders),
+        "orders": orders_as_data(candidate.orders),
         "initial_covariance": None if prior is None else list(prior),
         "error": finite(trial.error),
     }
 
 
-def orders_as_list(orders: Orders | None) -> Sequence[int] | None:
-    """na, nb, nk."""
-    return None if orders is None else [orders.na, orders.nb, orders.nk]
+def orders_as_data(orders: ModelOrders | None) -> Sequence[int] | str | None:
+    """na, nb, nk; or the structure and its orders as one text."""
+    return [orders.na, orders.nb, orders.nk] if isinstance(orders, Orders) else text_of(orders)
+
+
+def text_of(named: NamedModel | None) -> str | None:
+    """As ``--model`` takes it."""
+    return None if named is None else str(named)
 
 
 def finite(value: float) -> float | None:

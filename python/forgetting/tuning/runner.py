@@ -10,12 +10,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from forgetting._core import InvalidInput, NumericalRange
-from forgetting.models.orders import Orders
 from forgetting.tuning.baseline import rms, typical
 from forgetting.tuning.candidate import Candidate
 from forgetting.tuning.problem import Array, Problem, Split
+from forgetting.tuning.structures import ModelOrders
 
-Make = Callable[[Orders | None], Problem]
+Make = Callable[[ModelOrders | None], Problem]
 Progress = Callable[[int, int], None]
 
 
@@ -63,20 +63,20 @@ class Runner:
         self.trials: list[Trial] = []
         self.expected = 0
         self._known: dict[Candidate, float] = {}
-        self._kept: tuple[Orders | None, Problem] | None = None
+        self._kept: tuple[ModelOrders | None, Problem] | None = None
 
     @property
     def runs(self) -> int:
         """Runs so far."""
         return len(self._known)
 
-    def problem(self, orders: Orders | None) -> Problem:
+    def problem(self, orders: ModelOrders | None) -> Problem:
         """The problem of a model; that of the model in `keep` is made once."""
         if self._kept is not None and self._kept[0] == orders:
             return self._kept[1]
         return self.make(orders)
 
-    def keep(self, orders: Orders | None) -> Problem:
+    def keep(self, orders: ModelOrders | None) -> Problem:
         """Keep the problem of one model in memory."""
         self._kept = orders, self.problem(orders)
         return self._kept[1]

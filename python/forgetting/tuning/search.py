@@ -1,6 +1,6 @@
 """The order in which settings are chosen: cheap runs first, and only the best go on.
 
-Orders of an ARX model are chosen first, each at the best of a few speeds. Every rule is then run
+Orders of a model are chosen first, each at the best of a few speeds. Every rule is then run
 over a coarse grid of its factor; the grid is made finer around the best of those rules that go
 on. Other parameters, rates and priors are tried last, where they are worth it (`worth.py`).
 """
@@ -10,11 +10,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from forgetting._core import InvalidInput
-from forgetting.models.orders import Orders
 from forgetting.tuning import grid
 from forgetting.tuning.candidate import NOISE, Candidate, tuned
 from forgetting.tuning.problem import Problem
 from forgetting.tuning.runner import Runner, Trial, best
+from forgetting.tuning.structures import ModelOrders
 from forgetting.tuning.worth import (
     MARGIN,
     WITH_RATES,
@@ -30,7 +30,7 @@ ROUNDS = 2
 """How often the grid is made finer."""
 
 
-def best_orders(runner: Runner, orders: Sequence[Orders]) -> Orders:
+def best_orders(runner: Runner, orders: Sequence[ModelOrders]) -> ModelOrders:
     """The fewest orders that predict about as well as the best, each at its best speed."""
     if len(orders) == 1:
         return orders[0]
@@ -38,14 +38,10 @@ def best_orders(runner: Runner, orders: Sequence[Orders]) -> Orders:
     runner.score([candidate for candidates in tried for candidate in candidates], "orders")
     least = [runner.score(candidates, "orders")[0].error for candidates in tried]
     if min(least) == float("inf"):
-        raise InvalidInput("no ARX model could be run on the first part of the record")
+        raise InvalidInput("no model could be run on the first part of the record")
     near = min(least) * (1 + MARGIN)
-    return min((each for each, error in zip(orders, least, strict=True) if error <= near), key=size)
-
-
-def size(orders: Orders) -> tuple[int, int]:
-    """Sorts models: fewer parameters first, then the shorter delay."""
-    return orders.na + orders.nb, orders.nk
+    good = (each for each, error in zip(orders, least, strict=True) if error <= near)
+    return min(good, key=lambda each: each.size)
 
 
 def best_of_each(
@@ -116,7 +112,7 @@ def setting(candidate: Candidate) -> float:
 def search(
     runner: Runner,
     rules: Sequence[str],
-    orders: Orders | None,
+    orders: ModelOrders | None,
     problem: Problem,
     rates: bool,
     priors: bool,

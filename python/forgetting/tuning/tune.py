@@ -15,8 +15,10 @@ from forgetting.tuning.choose import SHARE, choose
 from forgetting.tuning.code import estimator_code, model_code
 from forgetting.tuning.orders import USUAL_NA, order_grid, widest
 from forgetting.tuning.problem import Problem
+from forgetting.tuning.regression import Regression
 from forgetting.tuning.result import Lines, Tuning
 from forgetting.tuning.runner import Progress
+from forgetting.tuning.structures import ModelOrders
 
 
 def tune(
@@ -88,7 +90,7 @@ def tune(
     table = channels("phi", phi)
     if len(table) != len(outputs):
         raise InvalidInput(f"phi has {len(table)} rows and y has {len(outputs)}; they must match")
-    problem = Problem(table, outputs, (table, outputs))
+    problem = Regression(table, outputs, (table, outputs))
 
     def say(candidate: Candidate) -> Lines:
         return Lines(estimator_code(candidate, table.shape[1], outputs.shape[1]))
@@ -158,10 +160,10 @@ def tune_arx(
     inputs, outputs = paired(u, y)
     models = order_grid(na, nb, nk, inputs.shape[1])
 
-    def make(orders: Orders | None) -> Problem:
-        assert orders is not None
+    def make(orders: ModelOrders | None) -> Problem:
+        assert isinstance(orders, Orders)
         phi = regressors(inputs, outputs, orders)
-        return Problem(phi, outputs, (phi, outputs))
+        return Regression(phi, outputs, (phi, outputs))
 
     return choose(
         make,

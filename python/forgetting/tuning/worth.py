@@ -75,6 +75,6 @@ def with_priors(runner: Runner, trial: Trial, problem: Problem) -> Trial:
     assert rule is not None
     if any(rule.parameters.values()) or isinstance(rule.forgetting_factor, Rate):
         return trial
-    first = problem.phi[: runner.split.row]
-    others = [replace(trial.candidate, initial_covariance=prior) for prior in grid.priors(first)]
+    squares = problem.mean_squares(runner.split.row)
+    others = [replace(trial.candidate, initial_covariance=prior) for prior in grid.priors(squares)]
     return worth(runner, trial, others, "priors")

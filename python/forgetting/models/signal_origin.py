@@ -1,0 +1,120 @@
+"""The point from which a model with a constant measures its signals, and what that makes of P.
+
+Such a model says the same of u - u0 and y - y0, their first values, with another constant. Of
+signals as they are the constant is
+
+    offset = constant + y0 (1 - Σ a) - Σᵢ uᵢ0 Σ bᵢ / (1 - Σ fᵢ)
+
+and its variance that of its gradient along all parameters: to first order exact, as for all that
+is said of standard errors here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class SignalOrigin:
+    """First values of the signals of a model with the parameters a, b, c, d, f and a constant.
+
+    Attributes
+    ----------
+    inputs : ndarray, shape (inputs,)
+        First value of each input that is not missing; 0 before there is one.
+    output : float
+        That of the output.
+    a : slice
+    b, f : tuple of slice
+        Where the parameters of A stand, and those of B and F of each input. The constant is last.
+
+    Examples
+    --------
+    >>> origin = SignalOrigin(np.array([20.0]), 300.0, slice(0, 1), (slice(1, 2),), (slice(0, 0),))
+    >>> origin.express(np.array([0.9, 1.0, 0.0])).round(6).tolist()
+    [0.9, 1.0, 10.0]
+    >>> origin.change(np.array([0.9, 1.0, 0.0])).tolist()
+    [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-300.0, -20.0, 1.0]]
+    """
+
+    inputs: Array
+    output: float
+    a: slice
+    b: tuple[slice, ...]
+    f: tuple[slice, ...]
+
+    @classmethod
+    def of(
+        cls, inputs: Array, output: float, na: int, each: Sequence[tuple[int, int, int]], noise: int
+    ) -> SignalOrigin:
+        """Of so many coefficients: `each` is (nb, nf, nk) of an input, `noise` those of C and D.
+
+        A value that is not known, NaN, counts as 0.
+        """
+        b = places(na, [nb for nb, _, _ in each])
+        f = places(na + sum(nb for nb, _, _ in each) + noise, [nf for _, nf, _ in each])
+        return cls(np.nan_to_num(inputs), float(np.nan_to_num(output)), slice(0, na), b, f)
+
+    def express(self, theta: Array) -> Array:
+        """Parameters (..., n) of signals less their first values, for signals as they are."""
+        found = theta.copy()
+        found[..., -1] += self.output * (1.0 - theta[..., self.a].sum(axis=-1))
+        for u, b, f in zip(self.inputs, self.b, self.f, strict=True):
+            found[..., -1] -= u * theta[..., b].sum(axis=-1) / (1.0 - theta[..., f].sum(axis=-1))
+        return found
+
+    def gradient(self, theta: Array) -> Array:
+        """Of the constant of signals as they are along all parameters, (..., n)."""
+        found = np.zeros_like(theta)
+        found[..., -1] = 1.0
+        found[..., self.a] = -self.output
+        for u, b, f in zip(self.inputs, self.b, self.f, strict=True):
+            slow = 1.0 - theta[..., f].sum(axis=-1, keepdims=True)
+            found[..., b] = -u / slow
+            found[..., f] = -u * theta[..., b].sum(axis=-1, keepdims=True) / slow**2
+        return found
+
+    def change(self, theta: Array) -> Array:
+        """What makes of P (n, n) that of parameters for signals as they are, at `theta` (n,)."""
+        change = np.eye(len(theta))
+        change[-1] = self.gradient(theta)
+        return change
+
+    def covariance(self, theta: Array, covariance: Array) -> Array:
+        """P (n, n) of parameters for signals as they are."""
+        change = self.change(theta)
+        return np.asarray(change @ covariance @ change.T)
+
+
+def first_values(signals: Array) -> Array:
+    """The first value of each column that is not missing, (c,); NaN where there is none.
+
+    Examples
+    --------
+    >>> first_values(np.array([[np.nan, 1.0], [3.0, 2.0]])).tolist()
+    [3.0, 1.0]
+    """
+    known = ~np.isnan(signals)
+    rows = known.argmax(axis=0) if len(signals) else np.zeros(signals.shape[1], dtype=int)
+    columns = np.arange(signals.shape[1])
+    found = signals[rows, columns] if len(signals) else np.full(signals.shape[1], np.nan)
+    return np.asarray(found)
+
+
+def places(start: int, counts: Sequence[int]) -> tuple[slice, ...]:
+    """Slices of so many numbers each, one after the other.
+
+    Examples
+    --------
+    >>> places(2, [2, 1])
+    (slice(2, 4, None), slice(4, 5, None))
+    """
+    ends = np.cumsum([start, *counts]).tolist()
+    return tuple(slice(a, b) for a, b in pairwise(ends))
