@@ -61,9 +61,9 @@ def check_settings(path: Path, saved: Mapping[str, Any], now: Mapping[str, Any])
     RecordError
         Naming the first that differs.
     """
-    for name in now:
-        if saved.get(name) != now[name]:
+    for name in (*now, *saved):
+        if saved.get(name) != now.get(name):
             raise RecordError(
                 f"--state {path} was made with {name} {saved.get(name)}, and now it is "
-                f"{now[name]}; go on with the same, or name another state"
+                f"{now.get(name)}; go on with the same, or name another state"
             )
