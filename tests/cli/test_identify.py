@@ -127,3 +127,31 @@ def test_windup_is_told(forgetting, tmp_path):
         "identify", tmp_path / "quiet.csv", "-f", "y ~ 0 + x", "-r", "exponential", "-l", "0.9"
     )
     assert run.code == 0 and "Windup:" in run.out
+
+
+def test_what_is_known_is_told_by_name(forgetting, battery):
+    known = ("--bounds", "lag(I)=-0.01:,Intercept=:0.39", "--fixed", "I=0.05")
+    run = forgetting("identify", battery, *FORMULA, *known, "--prior", "lag(V)=0.9+-0.01", "--json")
+    printed = json.loads(run.out)
+    found = identify(
+        battery,
+        formula=FORMULA[1],
+        bounds={"lag(I)": (-0.01, None), "Intercept": (None, 0.39)},
+        fixed={"I": 0.05},
+        prior={"lag(V)": (0.9, 0.01)},
+    )
+    assert printed == json.loads(json.dumps(found.summary())) | {"written": []}
+    rows = {row["parameter"]: row for row in printed["parameters"]}
+    assert rows["lag(I)"]["value"] >= -0.01 and rows["Intercept"]["value"] <= 0.39
+    assert (rows["I"]["value"], rows["I"]["known"]) == (0.05, "given")
+    assert rows["lag(V)"]["known"] == "prior 0.9 ± 0.01"
+
+
+def test_the_report_shows_what_was_known(forgetting, battery, tmp_path):
+    report = tmp_path / "out.html"
+    known = ("--bounds", "I=0:", "--fixed", "lag(I)=-0.03")
+    run = forgetting("identify", battery, *FORMULA, *known, "--report", report)
+    assert (run.code, run.err) == (0, "")
+    for text in (run.out, report.read_text(encoding="utf-8")):
+        for part in ("known before", "at least 0", "given"):
+            assert part in text

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from forgetting.cli import options
-from forgetting.cli.parse import parse_covariance
+from forgetting.cli.parse import parse_covariance, parse_known
 from forgetting.cli.progress import progress_bar
 from forgetting.cli.rulebook import make_gate, rule_or_auto
 from forgetting.cli.source import show_record, told
@@ -48,6 +48,10 @@ def identify(
     gate: options.GateText = None,
     initial_covariance: options.InitialCovariance = "auto",
     dtype: options.Dtype = "float64",
+    bounds: options.Bounds = None,
+    fixed: options.Fixed = None,
+    prior: options.Prior = None,
+    noise: options.Noise = None,
     report: options.Report = None,
     estimates: options.Estimates = None,
     plot: options.Plot = None,
@@ -81,6 +85,10 @@ def identify(
             gate=before,
             initial_covariance=parse_covariance(initial_covariance),
             dtype=dtype,
+            bounds=parse_known("bounds", bounds),
+            fixed=parse_known("fixed", fixed),
+            prior=parse_known("prior", prior),
+            noise=noise,
             progress=progress,
         )
     print_result(found, write(found, report, estimates, plot), as_json)

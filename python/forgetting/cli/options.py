@@ -8,6 +8,7 @@ from typing import Annotated, Any
 import typer
 
 MODEL, READING, RULE = "Model", "Reading the record", "Forgetting"
+KNOWN = "What is known of parameters, by their names"
 FILES = "What to write"
 
 
@@ -233,6 +234,42 @@ InitialCovariance = Annotated[
         "the data, and units do not matter.",
         "--initial-covariance",
         metavar="P0",
+    ),
+]
+Bounds = Annotated[
+    str | None,
+    option(
+        KNOWN,
+        "Smallest and largest value, as in 'R0=0:,a=-1:1'; estimates outside are moved inside.",
+        "--bounds",
+        metavar="NAME=LOW:HIGH,...",
+    ),
+]
+Fixed = Annotated[
+    str | None,
+    option(
+        KNOWN,
+        "Values that are known exactly, as in 'b=2.5'.",
+        "--fixed",
+        metavar="NAME=VALUE,...",
+    ),
+]
+Prior = Annotated[
+    str | None,
+    option(
+        KNOWN,
+        "A value and its standard deviation, before the first sample, as in 'R0=0.05+-0.02'.",
+        "--prior",
+        metavar="NAME=VALUE+-SD,...",
+    ),
+]
+Noise = Annotated[
+    float | None,
+    option(
+        KNOWN,
+        "Standard deviation of the noise, which priors are weighed against; a record tells it by "
+        "itself, a stream does not.",
+        "--noise",
     ),
 ]
 Share = Annotated[

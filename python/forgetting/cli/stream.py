@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from forgetting.cli import options
-from forgetting.cli.parse import parse_covariance, parse_orders
+from forgetting.cli.parse import parse_covariance, parse_known, parse_orders
 from forgetting.cli.rulebook import make_gate, rule_or_auto
 from forgetting.files import check_outputs
 from forgetting.words.errors import RecordError
@@ -74,6 +74,10 @@ def stream(
     gate: options.GateText = None,
     initial_covariance: options.InitialCovariance = "auto",
     dtype: options.Dtype = "float64",
+    bounds: options.Bounds = None,
+    fixed: options.Fixed = None,
+    prior: options.Prior = None,
+    noise: options.Noise = None,
     to: Annotated[str, options.option(OUT, "json (an object a line) or csv.", "--to")] = "json",
     fields: Annotated[
         str | None,
@@ -129,6 +133,10 @@ def stream(
         gate=make_gate(gate),
         initial_covariance=parse_covariance(initial_covariance),
         dtype=dtype,
+        bounds=parse_known("bounds", bounds),
+        fixed=parse_known("fixed", fixed),
+        prior=parse_known("prior", prior),
+        noise=noise,
         time=time,
         gap=gap,
         missing=tuple(missing or ()),

@@ -13,7 +13,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from forgetting.words.rounding import brief, with_error, with_unit
+from forgetting.words.rounding import brief, with_unit
 
 if TYPE_CHECKING:
     from forgetting.judgement import Judgement
@@ -111,18 +111,11 @@ def spread(found: Identification) -> str:
 
 def parameters(found: Identification) -> Table:
     """Final values ± standard errors."""
-    several = len(found.samples.outputs) > 1
-    known = any(found.unit(output, name) for output, name, *_ in found.final())
-    rows = [
-        (
-            f"{output}: {name}" if several else name,
-            *with_error(value, error),
-            *([found.unit(output, name) or ""] if known else []),
-        )
-        for output, name, value, error in found.final()
-    ]
+    from forgetting.record.parameters import table as in_words
+
+    more, rows = in_words(found)
     header = ("regressor", "value", "± standard error")
-    return table("Parameters", (*header, "unit") if known else header, rows)
+    return table("Parameters", (*header, *more), rows)
 
 
 def scores(found: Identification) -> Table:

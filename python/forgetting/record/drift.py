@@ -38,6 +38,7 @@ from forgetting.record.courses import (
     walk,
     weigh,
 )
+from forgetting.record.known import Known
 from forgetting.record.moved import Moved, as_run
 from forgetting.record.origin import Origin, constant_of, nowhere
 from forgetting.record.samples import Samples
@@ -145,7 +146,7 @@ def half_width(away: Array) -> Array:
     return np.asarray(np.where(away < at[-1], np.interp(away, at, widths), away + 1.69))
 
 
-def drift(samples: Samples, settings: dict[str, Any]) -> Drift | None:
+def drift(samples: Samples, settings: dict[str, Any], known: Known) -> Drift | None:
     """Weigh the courses of a record; None where it is too short, or beyond the range of numbers.
 
     Parameters
@@ -153,14 +154,17 @@ def drift(samples: Samples, settings: dict[str, Any]) -> Drift | None:
     samples : Samples
     settings : dict
         Of the estimators: targets, initial_covariance and dtype.
+    known : Known
+        Before the first sample; its priors are those of the courses.
     """
     # a P that was given is of parameters as they are
-    here = middle(samples, moves=settings["initial_covariance"] is None)
+    moves = settings["initial_covariance"] is None and not known.of_constant(samples)
+    here = middle(samples, moves=moves)
     moved = here.moved(samples)
     courses = weigh(moved, settings)
     rows = ends(len(samples.y))
     try:
-        found = [along(moved, here, course, rows, settings) for course in courses]
+        found = [along(moved, here, course, rows, settings, known) for course in courses]
     except fg.NumericalRange:
         found = []
     if not found:
@@ -186,9 +190,11 @@ def along(
     course: Course,
     rows: NDArray[np.int64],
     settings: dict[str, Any],
+    known: Known,
 ) -> tuple[Array, Array]:
     """θ and σ² P_ii of a course after each of the rows, (K, n, m) each, as measured from zero."""
     estimator = walk(samples, course.process_noise, settings)
+    known.teach(estimator, samples.regressors, known.prior_values(samples.regressors))
     n, m, origin = samples.parameters, samples.targets, samples.samples.origin
     change = here.change()
     noise, thetas, spreads, start = Noise(n, m), [], [], 0

@@ -5,7 +5,7 @@ They are found by their values, so that ``lag(V)`` of a formula counts like a la
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,15 +30,31 @@ class Feedback:
         By the column of phi.
     outputs : int
         Outputs of the model.
+    known : mapping of int to float
+        By the lag, of a model with one output: what its coefficient is more than what is estimated.
     """
 
     lags: dict[int, tuple[int, int]]
     outputs: int
+    known: dict[int, float] = field(default_factory=dict)
 
     @property
     def deepest(self) -> int:
         """The longest lag, na; 0 without feedback."""
-        return max((lag for lag, _ in self.lags.values()), default=0)
+        return max((*self.known, *(lag for lag, _ in self.lags.values())), default=0)
+
+    def model(self, theta: Array) -> Array:
+        """A_1 ... A_na as `matrices` has them, with what is known."""
+        made = self.matrices(theta)
+        for lag, value in self.known.items():
+            made[lag - 1, 0, 0] += value
+        return made
+
+    def knowing(self, values: Array, left: list[int]) -> Feedback:
+        """The same where parameters are `values` (n,) more than is estimated of those `left`."""
+        known = {lag: float(values[i]) for i, (lag, _) in self.lags.items() if values[i]}
+        lags = {new: self.lags[old] for new, old in enumerate(left) if old in self.lags}
+        return Feedback(lags, self.outputs, known)
 
     def matrices(self, theta: Array) -> Array:
         """A_1 ... A_na of y(k) = A_1 y(k-1) + ..., (na, m, m), from theta (n, m)."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -18,8 +18,10 @@ from forgetting.judgement import Judgement
 from forgetting.record import estimates
 from forgetting.record.counts import Counts
 from forgetting.record.drift import Drift, claim, drift
+from forgetting.record.known import Known
 from forgetting.record.memories import Memories, memories
 from forgetting.record.origin import origin
+from forgetting.record.parameters import final
 from forgetting.record.samples import Samples, pieces
 from forgetting.record.scores import Scores
 from forgetting.record.trace import USED
@@ -58,6 +60,8 @@ class Identification(Counts):
         What regressors were measured in at the end; 1 where P before the first sample was given.
     settings : dict
         Of estimators on this record: targets, initial_covariance and dtype.
+    known : Known
+        What was known of parameters before. Those that are fixed are not among the regressors.
     """
 
     samples: Samples
@@ -69,6 +73,7 @@ class Identification(Counts):
     units: Array
     settings: dict[str, Any]
     members: list[Any]
+    known: Known = field(default_factory=Known)
 
     @cached_property
     def noise_variance(self) -> Array:
@@ -78,7 +83,7 @@ class Identification(Counts):
     @cached_property
     def drift(self) -> Drift | None:
         """How parameters drift and noise remembers, most likely; None for too short a record."""
-        return drift(self.samples, self.settings)
+        return drift(self.samples, self.settings, self.known)
 
     @property
     def standard_error(self) -> Array:
@@ -158,10 +163,16 @@ class Identification(Counts):
 
     @property
     def parameters(self) -> pd.DataFrame:
-        """Final values: output, parameter, value, standard_error and unit (None if not known)."""
-        rows = [(*row, self.unit(*row[:2])) for row in self.final()]
+        """Final values: output, parameter, value, standard_error and unit (None if not known).
+
+        Where something was known of them before, `known` says what.
+        """
+        rows = [(*row, self.unit(*row[:2])) for row in final(self)]
         columns = ["output", "parameter", "value", "standard_error", "unit"]
-        return pd.DataFrame(rows, columns=columns).astype({"unit": object})
+        found = pd.DataFrame(rows, columns=columns).astype({"unit": object})
+        if self.known:
+            found["known"] = [self.known.words(name) for name in found["parameter"]]
+        return found
 
     def unit(self, output: str, regressor: str | None = None) -> str | None:
         """Unit of an output, or of its parameter of a regressor; None if the record names none."""
@@ -208,15 +219,6 @@ class Identification(Counts):
             time = "" if step is None else f" ({spoken(float(memory) * step)})"
             length = f"{memory:.3g} samples{time}"
         return f"bank of {len(self.trace.weights)} members, at the end with a memory of {length}"
-
-    def final(self) -> list[tuple[str, str, float, float]]:
-        """Output, regressor, final value and its standard error, output by output."""
-        errors = self.final_standard_error
-        return [
-            (output, name, float(self.theta[-1, i, j]), float(errors[i, j]))
-            for j, output in enumerate(self.samples.outputs)
-            for i, name in enumerate(self.samples.regressors)
-        ]
 
     @cached_property
     def guarantee(self) -> Guarantee:
@@ -265,6 +267,7 @@ class Identification(Counts):
             "model": self.samples.model,
             "rule": self.rule_in_words,
             "parameters": rows,
+            "known": self.known.to_dict() if self.known else None,
             "uncertainty": self.uncertainty,
             "drift": None if self.drift is None else self.drift.to_dict(),
             "rmse": self.scores.by_output(self.samples.outputs),

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,9 +17,12 @@ from forgetting.record.feedback import Feedback, feedback
 from forgetting.record.half_life import with_time
 from forgetting.record.identification import Identification
 from forgetting.record.judge import Judged, judge, settled
+from forgetting.record.known import Bounds, Known
+from forgetting.record.limits import Limits
 from forgetting.record.missing import Words
 from forgetting.record.moved import Moved
 from forgetting.record.names import clean
+from forgetting.record.noise import noise_of, refuse_functions
 from forgetting.record.origin import constants, origin
 from forgetting.record.polynomial import Learned, learned, which
 from forgetting.record.read import Record, read
@@ -48,6 +52,10 @@ def identify(
     gate: Any = None,
     initial_covariance: ArrayLike | None = None,
     dtype: str = "float64",
+    bounds: Bounds | None = None,
+    fixed: Mapping[str, float] | None = None,
+    prior: Mapping[str, tuple[float, float]] | None = None,
+    noise: float | None = None,
     time: str | None = None,
     gap: str | float | None = None,
     missing: str | float | Words = (),
@@ -88,6 +96,18 @@ def identify(
         Whether an ARX model has a constant.
     dtype : str
         "float64" or "float32".
+    bounds : mapping of str to (float or None, float or None), optional
+        Smallest and largest value of parameters, by the names of their regressors, as in
+        ``{"R0": (0, None)}``. Estimates outside are moved inside by `forgetting.bounded`; errors
+        and predictions are those of the estimator, which does not know of bounds.
+    fixed : mapping of str to float, optional
+        Values of parameters that are known exactly: their part is taken from the output.
+    prior : mapping of str to (float, float), optional
+        A value and the standard deviation with which it is known before the first sample. It is
+        forgotten like what samples said.
+    noise : float, optional
+        Standard deviation of the noise, which priors are weighed against; if not given, the root
+        mean square one-step error of the same model without the priors.
     time, gap, missing
         The clock, its gaps, and what stands for missing values; see `forgetting.record.read`.
     progress : callable, optional
@@ -121,6 +141,7 @@ def identify(
     >>> found.used, found.missing
     (200, 0)
     """
+    known = Known(bounds or {}, fixed or {}, prior or {}, noise)
     source = read(record, time, gap=gap, missing=missing)
     columns = listed(output), listed(input)
     course: Learned | None = None
@@ -128,6 +149,8 @@ def identify(
     if named is None:
         samples = build(source, formula, *columns, arx, offset)
     else:
+        if known:
+            raise RecordError(f"the model {model} takes no bounds, fixed values and priors")
         if half_life is not None or by_clock:
             raise RecordError(f"the model {model} forgets by samples; leave out what counts time")
         chosen = {"rule": rule, "gate": gate, "dtype": dtype}
@@ -136,26 +159,44 @@ def identify(
         samples = course.samples
     del record, source  # the table, which nobody else may hold, is as large as what is made of it
     release(len(samples.y))
+    known.check(samples.regressors, samples.outputs)
+    past = feedback(samples)
+    if known:
+        past = past.knowing(known.values(samples.regressors), known.left(samples.regressors))
+    samples = known.without_fixed(samples)
     rule, time_of = with_time(rule, half_life, by_clock, samples)
     settings: dict[str, Any] = {
         "targets": samples.y.shape[1],
         "initial_covariance": initial_covariance,
         "dtype": dtype,
     }
-    estimator = estimator_for(samples.phi.shape[1], rule, gate=gate, **settings)
-    here = origin(samples, moves=initial_covariance is None)
+    moves = initial_covariance is None and not known.of_constant(samples)
+    seen = known.from_priors(samples)
+    here = origin(seen, moves=moves)
+    moved = here.moved(seen)
+
+    def fresh() -> Any:
+        return estimator_for(samples.phi.shape[1], rule, gate=gate, **settings)
+
+    if known.prior and noise is None:
+        refuse_functions(rule, gate)
+        known = replace(known, noise=noise_of(errors_of(fresh(), moved, time_of), moved))
+    estimator = fresh()
     initial = np.asarray(estimator.covariance, dtype=np.float64)
-    moved = here.moved(samples)
-    trace = run(estimator, moved, progress, time_of)
+    teach = partial(known.teach, regressors=samples.regressors)
+    teach(estimator)
+    limits = Limits(*known.limits_from_priors(samples.regressors), here)
+    trace = run(estimator, moved, progress, time_of, limits.hold if known.bounds else None)
     trace = trace if course is None else course.put(trace)
     units = np.ones(len(initial)) if estimator.units is None else estimator.units
-    past = feedback(samples)
     plain = (
-        errors_without_forgetting(moved, settings)
+        errors_without_forgetting(moved, settings, teach)
         if course is None
         else course.error_without_forgetting
     )
-    alone = errors_without_inputs(moved, past, rule, gate, settings, time_of)
+    alone = None
+    if not (known.fixed or known.prior):
+        alone = errors_without_inputs(moved, past, rule, gate, settings, time_of)
     scores = score(samples, trace.error, plain, alone)
     excited = remembered(moved, trace)
     judged = Judged(
@@ -168,9 +209,12 @@ def identify(
         health=estimator.health() if isinstance(estimator, fg.RLS) else None,
     )
     judgement = judge(judged)  # before the trace is changed
+    trace = here.back(trace) if course is None else course.back(trace)
+    limits.put(trace.theta)
+    known.add_priors(trace.theta, samples.regressors)
     return Identification(
         samples=samples,
-        trace=here.back(trace) if course is None else course.back(trace),
+        trace=trace,
         rule=rule_of(estimator, rule),
         scores=scores,
         judgement=judgement,
@@ -179,6 +223,7 @@ def identify(
         units=np.asarray(units, dtype=np.float64),
         settings=settings,
         members=estimator.members if isinstance(estimator, fg.Bank) else [],
+        known=known,
     )
 
 

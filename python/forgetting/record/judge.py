@@ -199,4 +199,4 @@ def stability(judged: Judged) -> Finding | None:
     random = np.random.default_rng(0)
     drawn = random.normal(size=(poles.SAMPLED, *trace.theta[-1].shape))
     models = np.array([judged.feedback.matrices(root @ each * noise) for each in drawn])
-    return poles.poles(judged.feedback.matrices(trace.theta[-1]), models)
+    return poles.poles(judged.feedback.model(trace.theta[-1]), models)

@@ -59,6 +59,12 @@ class Origin:
             change[self.constant] -= self.phi / self.level
         return change
 
+    def covariance(self, covariance: Array) -> Array:
+        """P (K, n, n) of an estimator over `moved` samples for the samples as they are."""
+        if self.constant is None:
+            return covariance
+        return at_zero(covariance, self.change()[self.constant], self.constant)
+
     def back(self, trace: Trace) -> Trace:
         """What a run over `moved` samples found, in the terms of the samples; changed in place.
 
@@ -121,6 +127,23 @@ def constants(samples: Moved) -> NDArray[np.bool_]:
     for part in pieces(len(samples)):
         same &= (samples.known_rows(part) == first).all(axis=0)
     return same
+
+
+def at_zero(covariance: Array, change: Array, constant: int) -> Array:
+    """P (K, n, n) where the constant is that of regressors measured from zero.
+
+    `change` (n,) makes that constant of the parameters; the others stay as they are.
+
+    Examples
+    --------
+    >>> at_zero(np.eye(2)[None], np.array([1.0, -3.0]), 0)[0].tolist()
+    [[10.0, -3.0], [-3.0, 1.0]]
+    """
+    made = np.array(covariance, dtype=np.float64)
+    row = weighted_sum(change, covariance)
+    made[:, constant] = made[:, :, constant] = row
+    made[:, constant, constant] = weighted_sum(change, row)
+    return made
 
 
 def weighted_sum(weights: Array, values: Array) -> Array:

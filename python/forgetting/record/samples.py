@@ -44,8 +44,10 @@ class Samples:
     found : Found
         How the record was read.
     measured : ndarray, shape (T, m), or None
-        The outputs as they were measured, where y is what a model with coloured noise made of them
-        so that it is linear in the parameters.
+        The outputs as they were measured, where y is what was made of them: less what is known, or
+        linear in the parameters of a model with coloured noise.
+    is_pseudolinear : bool
+        Whether regressors follow from the estimates, as they do where noise is coloured.
     origin : SignalOrigin or None
         What such a model with a constant measures its signals from.
     """
@@ -60,12 +62,8 @@ class Samples:
     cut: int = 0
     found: Found = field(default_factory=Found)
     measured: Array | None = None
+    is_pseudolinear: bool = False
     origin: SignalOrigin | None = None
-
-    @property
-    def is_pseudolinear(self) -> bool:
-        """Whether regressors follow from the estimates, as they do where noise is coloured."""
-        return self.measured is not None
 
     @property
     def as_measured(self) -> Array:

@@ -18,6 +18,8 @@ from forgetting.record.samples import pieces
 
 Array = NDArray[np.float64]
 Progress = Callable[[int, int], None]
+Hold = Callable[[Array, Array, int], None]
+"""Changes estimates (K, n, m), with P (K, n, n) after the same samples and the row of the first."""
 
 CHUNKS = 1000
 """Pieces a record is run in; the eigenvalues of P are taken after each, so at most this often."""
@@ -25,6 +27,8 @@ CHEAP = 200_000_000
 """Cubes of parameters that all eigenvalues together may cost: about a second."""
 FEWEST = 20
 """Pieces however many parameters there are."""
+ROOM = 4_000_000
+"""Numbers that P of all samples of a piece may be, where it is needed."""
 
 CODES = {reason: code for code, reason in fg.SKIPPED.items()}
 USED, DEAD_ZONE, MISSING = CODES[None], CODES["dead_zone"], CODES["missing"]
@@ -102,27 +106,32 @@ def run(
     samples: Moved,
     progress: Progress | None = None,
     time: Array | None = None,
+    hold: Hold | None = None,
 ) -> Trace:
     """Run `estimator` over all samples in chunks; chunking changes no bit of the result.
 
-    With the ``time`` of each, (T,), forgetting counts time in place of samples.
+    With the ``time`` of each, (T,), forgetting counts time in place of samples. `hold` keeps the
+    estimates within bounds.
     """
     total, n = len(samples), samples.parameters
     last = LastTime()
     history = History(total, n, samples.targets, isinstance(estimator, fg.Bank))
+    wanted = (*history.outputs, "covariance") if hold else history.outputs
     rows: list[int] = []
     covariances: list[NDArray[Any]] = []
-    for start, stop in chunks(total, n):
+    for start, stop in chunks(total, n, ROOM // n**2 if hold else total):
         part = slice(start, stop)
         try:
             phi, y = as_run(*samples.rows(part), estimator.dtype)
             when = None if time is None else last.ahead_of(time[part])
-            piece = estimator.run(phi, y, outputs=history.outputs, missing="skip", time=when)
+            piece = estimator.run(phi, y, outputs=wanted, missing="skip", time=when)
         except (fg.InvalidInput, fg.NumericalRange) as error:
             raise type(error)(in_rows(str(error), start)) from None
         if time is not None:
             last.note(time[part], samples.complete[part])
         history.put(start, stop, piece)
+        if hold is not None:
+            hold(history.arrays["theta"][start:stop], piece.covariance, start)
         rows.append(stop - 1)
         covariances.append(estimator.covariance.astype(np.float64))
         if progress is not None:
@@ -176,22 +185,31 @@ def in_rows(message: str, start: int) -> str:
     )
 
 
-def chunks(total: int, parameters: int) -> list[tuple[int, int]]:
+def chunks(total: int, parameters: int, longest: int | None = None) -> list[tuple[int, int]]:
     """Cut `total` rows into pieces of equal length, fewer where eigenvalues are dear.
+
+    None is longer than `longest`.
 
     Examples
     --------
-    >>> len(chunks(2000, 4)), len(chunks(2000, 400))
-    (1000, 20)
+    >>> len(chunks(2000, 4)), len(chunks(2000, 400)), len(chunks(2000, 400, longest=50))
+    (1000, 20, 40)
     """
     most = min(CHUNKS, max(CHEAP // parameters**3, FEWEST))
-    length = max(1, math.ceil(total / most))
+    length = max(1, min(math.ceil(total / most), total if longest is None else longest))
     return [(start, min(start + length, total)) for start in range(0, total, length)]
 
 
-def errors_without_forgetting(samples: Moved, settings: dict[str, Any]) -> Array:
-    """One-step errors (T, m) of the same model with the rule that never forgets."""
+def errors_without_forgetting(
+    samples: Moved, settings: dict[str, Any], teach: Callable[[Any], None] | None = None
+) -> Array:
+    """One-step errors (T, m) of the same model with the rule that never forgets.
+
+    `teach` tells the estimator what is known before the first sample.
+    """
     estimator = fg.RLS(samples.parameters, rule=fg.rule("none"), **settings)
+    if teach is not None:
+        teach(estimator)
     return errors_of(estimator, samples)
 
 

@@ -11,11 +11,12 @@ from matplotlib import pyplot as plt
 from forgetting import plot
 from forgetting.files import check_outputs
 from forgetting.record.identification import Identification
+from forgetting.record.parameters import table as in_words
 from forgetting.report.page import Block, Figure, Page, Table, write
 from forgetting.report.svg import inline
 from forgetting.report.trust import trust
 from forgetting.words.duration import spoken
-from forgetting.words.rounding import brief, with_error
+from forgetting.words.rounding import brief
 
 DRAWN = 24
 """Parameters drawn per output; the table and the estimates file have them all."""
@@ -97,18 +98,9 @@ def percent(value: float) -> str:
 
 def parameters(found: Identification) -> Block:
     """Final values."""
-    several = len(found.samples.outputs) > 1
-    known = any(found.unit(output, name) for output, name, *_ in found.final())
-    rows = [
-        (
-            f"{output}: {name}" if several else name,
-            *with_error(value, error),
-            *([found.unit(output, name) or ""] if known else []),
-        )
-        for output, name, value, error in found.final()
-    ]
+    more, rows = in_words(found)
     header = ("parameter (its regressor)", "value at the end", "± standard error")
-    table = Table((*header, "unit") if known else header, rows)
+    table = Table((*header, *more), rows)
     return Block("Parameters", found.uncertainty, table)
 
 

@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 import forgetting as fg
 from forgetting.record.half_life import LastTime
 from forgetting.record.identify import estimator_for
-from forgetting.record.origin import weighted_sum
+from forgetting.record.limits import within
+from forgetting.record.origin import at_zero, weighted_sum
 from forgetting.record.trace import USED
 from forgetting.stream.rows import Array, Flags
 from forgetting.stream.running import run_all
@@ -73,6 +74,8 @@ class Learner:
         Further outputs of `run` that are wanted.
     makes_regressors : bool
         Whether the model makes regressors from its own estimates, and tells these by `Seen`.
+    limits : pair of ndarray, shape (n,), or None
+        Smallest and largest value of each parameter, within which estimates are said.
     """
 
     def __init__(
@@ -87,6 +90,7 @@ class Learner:
         standard_errors: bool,
         also: tuple[str, ...],
         makes_regressors: bool = False,
+        limits: tuple[Array, Array] | None = None,
     ) -> None:
         settings = {"targets": outputs, "initial_covariance": initial_covariance, "dtype": dtype}
         self.estimator = estimator_for(regressors, rule, gate=gate, **settings)
@@ -95,6 +99,7 @@ class Learner:
         self.wants_errors = standard_errors
         self.also = also
         self.makes_regressors = makes_regressors
+        self.limits = limits
         self.phi0: Array | None = None
         self.y0 = np.zeros(outputs)
         self.last = LastTime()
@@ -139,12 +144,16 @@ class Learner:
 
     @property
     def _needs_covariance(self) -> bool:
+        if self.limits is not None:
+            return True
         return self.wants_errors and (self.constant is not None or self.makes_regressors)
 
     def _run(self, phi: Array, y: Array, time: Array | None) -> dict[str, Any]:
         wanted = ["theta", "error", "leverage", "skipped", "windup", *self.also]
-        if self.wants_errors:
-            wanted.append("covariance" if self._needs_covariance else "variance")
+        if self._needs_covariance:
+            wanted.append("covariance")
+        elif self.wants_errors:
+            wanted.append("variance")
         brought = run_all(self.estimator, phi, y, tuple(dict.fromkeys(wanted)), time, self.last)
         self.reason = self.reason or brought.reason
         found = {
@@ -163,6 +172,7 @@ class Learner:
             errors = np.sqrt(self._variance(found)[:, :, None] * noise[:, None, :])
         if self.phi0 is not None:
             theta[start:, self.constant] += self.y0 - weighted_sum(self.phi0, theta[start:])
+        self._hold(theta, found)
         others = {name: found[name] for name in (*self.also, "windup")}
         return Estimates(
             theta, error, y - error, errors, noise, found["skipped"], found["refused"], others
@@ -198,11 +208,31 @@ class Learner:
         covariance = found["covariance"]
         variance: Array = np.einsum("tii->ti", covariance).copy()
         if self.phi0 is not None:
-            change = -self.phi0
-            change[self.constant] = 1.0
-            products = weighted_sum(change, covariance)
-            variance[:, self.constant] = weighted_sum(change, products)
+            products = weighted_sum(self._change, covariance)
+            variance[:, self.constant] = weighted_sum(self._change, products)
         return variance
+
+    @property
+    def _change(self) -> Array:
+        """What makes of the parameters the constant of regressors measured from zero, (n,)."""
+        assert self.phi0 is not None
+        assert self.constant is not None
+        change = -self.phi0
+        change[self.constant] = 1.0
+        return change
+
+    def _hold(self, theta: Array, found: dict[str, Any]) -> None:
+        """Move estimates (T, n, 1) into their bounds, in place."""
+        if self.limits is None:
+            return
+        lower, upper = self.limits
+        out = np.flatnonzero(((theta[:, :, 0] < lower) | (theta[:, :, 0] > upper)).any(axis=1))
+        if not len(out):
+            return
+        covariance = found["covariance"][out]
+        if self.constant is not None and self.phi0 is not None:
+            covariance = at_zero(covariance, self._change, self.constant)
+        theta[out, :, 0] = within(theta[out, :, 0], covariance, lower, upper)
 
     def _noise(self, error: Array, leverage: Array, used: NDArray[np.bool_]) -> Array:
         """Running noise variance, as `forgetting.record.uncertainty` has it; sums go on."""

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, fields
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from forgetting.record.known import Bounds, Known
 from forgetting.record.polynomial import which
 from forgetting.words.errors import RecordError
+
+OF_KNOWN = ("bounds", "fixed", "prior", "noise")
 
 
 @dataclass(frozen=True)
@@ -31,6 +34,8 @@ class Settings:
         Whether an ARX model or a regression by columns has a constant.
     rule, half_life, gate, initial_covariance, dtype
         The estimator; without a rule a bank.
+    bounds, fixed, prior, noise
+        What is known of parameters; a prior needs the noise.
     time, gap, missing
         The clock, its gaps in seconds, and what stands for missing values.
     separator : str, optional
@@ -50,6 +55,10 @@ class Settings:
     gate: Any = None
     initial_covariance: ArrayLike | None = None
     dtype: str = "float64"
+    bounds: Bounds = field(default_factory=dict)
+    fixed: Mapping[str, float] = field(default_factory=dict)
+    prior: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    noise: float | None = None
     time: str | None = None
     gap: float | None = None
     missing: Sequence[str] = ()
@@ -62,12 +71,33 @@ class Settings:
             raise RecordError(
                 f"the model {self.model} forgets by samples; leave out what counts time"
             )
+        if named is not None and Known(self.bounds, self.fixed, self.prior, self.noise):
+            raise RecordError(f"the model {self.model} takes no bounds, fixed values and priors")
         object.__setattr__(self, "arx", arx)
         object.__setattr__(self, "model", None if named is None else str(named))
 
+    def known(self, regressors: Sequence[str], outputs: Sequence[str]) -> Known:
+        """What is known of the parameters of a model with these regressors and outputs.
+
+        Raises
+        ------
+        RecordError
+            For a parameter that is not there, or a prior without the noise.
+        """
+        known = Known(self.bounds, self.fixed, self.prior, self.noise)
+        if known.prior and known.noise is None:
+            raise RecordError(
+                "a prior is weighed against the noise, which a stream does not tell beforehand; "
+                "give its standard deviation as noise"
+            )
+        known.check(regressors, outputs)
+        return known
+
     def as_data(self) -> dict[str, str]:
-        """Every setting as text, to be compared with that of a saved state."""
-        return {each.name: text_of(getattr(self, each.name)) for each in fields(self)}
+        """Every setting as text, to be compared with that of a saved state; but nothing known."""
+        found = {each.name: getattr(self, each.name) for each in fields(self)}
+        unknown = [name for name in OF_KNOWN if not found[name]]
+        return {name: text_of(found[name]) for name in found if name not in unknown}
 
 
 def text_of(value: Any) -> str:

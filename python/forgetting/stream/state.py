@@ -61,10 +61,11 @@ def check_settings(path: Path, saved: Mapping[str, Any], now: Mapping[str, Any])
     RecordError
         Naming the first that differs.
     """
-    for name in now:
-        before = saved.get(name, "None")  # a setting that there was not yet
-        if before != now[name]:
+    for name in (*now, *saved):
+        # of a setting that there was not yet nothing was said
+        before, after = (each.get(name, "None") for each in (saved, now))
+        if before != after:
             raise RecordError(
                 f"--state {path} was made with {name} {before}, and now it is "
-                f"{now[name]}; go on with the same, or name another state"
+                f"{after}; go on with the same, or name another state"
             )

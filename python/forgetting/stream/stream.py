@@ -16,6 +16,7 @@ from forgetting.stream import fields as field_names
 from forgetting.stream.blocks import decoded, first_cells, pieces
 from forgetting.stream.clock import Marks, StreamClock
 from forgetting.stream.form import Form, recognised
+from forgetting.stream.known import KnownParameters
 from forgetting.stream.learner import Estimates, Learner, in_bank
 from forgetting.stream.model import Model, make_model
 from forgetting.stream.output import Batch, Output, with_alarms
@@ -138,25 +139,29 @@ class Stream:
             raise RecordError("a half-life in time needs a clock, and the stream has none")
         model: Model = make_model(form, own, rule)
         self.model = model
+        known = own.known(model.regressors, model.outputs)
+        self.known = KnownParameters(known, model.regressors)
         names = field_names.chosen(self.fields, stamps is not None, own.rule == "auto")
         self.learner = Learner(
-            len(model.regressors),
+            len(self.known.names),
             len(model.outputs),
-            model.constant,
+            self.known.place_of(model.constant),
             rule,
             own.gate,
             own.initial_covariance,
             own.dtype,
             self.standard_errors or "standard_errors" in names,
             field_names.wanted(names),
-            makes_regressors=isinstance(model, Signals),
+            isinstance(model, Signals),
+            known.limits_from_priors(self.known.names) if known.bounds else None,
         )
+        known.teach(self.learner.estimator, self.known.names)
         bank = self.learner.estimator if in_bank(self.learner.estimator) else None
         members = 0 if bank is None else len(bank.members)
         described = field_names.described(names, model.outputs, model.regressors, members)
         self.parser = Parser(form, model.columns, stamps, list(own.missing))
         self.clock = StreamClock(stamps, own.gap)
-        self.watch = Watch(model.regressors, len(model.outputs))
+        self.watch = Watch(self.known.names, len(model.outputs))
         self.writer = Writer(self.to, described)
 
     def _take(self, block: bytes, made: Output) -> None:
@@ -164,9 +169,10 @@ class Stream:
         if not len(rows):
             return
         marks = self.clock.mark(rows)
-        samples = self._samples(rows, marks)
-        found, moved, target = self.learner.take(samples, marks.time if self.by_clock else None)
+        samples, when = self._samples(rows, marks), marks.time if self.by_clock else None
+        found, moved, target = self.learner.take(self.known.taken(samples), when)
         y = samples.y if samples.seen is None else samples.seen.measured
+        found = self.known.put_back(found, y)
         first = self.tally.rows + 1
         alarms = self.watch.take(moved, target, found.others["windup"])
         self._count(rows, marks, found)
