@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import forgetting as fg
+from forgetting.models.text import linear
 from forgetting.record.dynamics import dynamics
 from forgetting.record.feedback import Feedback, feedback
 from forgetting.record.half_life import with_time
@@ -20,7 +21,7 @@ from forgetting.record.missing import Words
 from forgetting.record.moved import Moved
 from forgetting.record.names import clean
 from forgetting.record.origin import constants, origin
-from forgetting.record.polynomial import Learned, learned, linear
+from forgetting.record.polynomial import Learned, learned
 from forgetting.record.read import Record, read
 from forgetting.record.release import release
 from forgetting.record.remembered import remembered

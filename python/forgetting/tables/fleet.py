@@ -47,6 +47,9 @@ class TableFleet:
         Whether a constant regressor of 1 comes after the others.
     arx : (na, nb, nk) or Orders, optional
         Makes regressors of each stream's own past, see `forgetting.ARX`.
+    model : str, optional
+        In the place of `arx` the same as a text: ``"arx:na=2,nb=2,nk=1"``, ``"fir:nb=3"``,
+        ``"ar:na=2"``.
     gap : str, duration or float, optional
         Longest step in time that lags reach across, such as "5min"; any if not given.
     half_life : str, duration or float, optional
@@ -83,13 +86,14 @@ class TableFleet:
         time: str | None = None,
         offset: bool = False,
         arx: Sequence[int] | Orders | None = None,
+        model: str | None = None,
         gap: Any = None,
         half_life: Any = None,
         rule: Any = None,
         forgetting_factor: float | None = None,
         **settings: Any,
     ) -> None:
-        model = made(key, y, phi, time, offset, arx, gap)
+        columns = made(key, y, phi, time, offset, arx, gap, model)
         if half_life is not None:
             if time is None or forgetting_factor is not None:
                 raise InvalidInput("half_life goes with time, and without forgetting_factor")
@@ -98,8 +102,8 @@ class TableFleet:
             raise InvalidInput("forgetting_factor must be one number for all streams")
         chosen = {"rule": rule, "forgetting_factor": forgetting_factor, **settings}
         # two streams, so that what is given for all cannot be taken for what is given for one
-        fresh = Fleet(2, len(model.regressors), **chosen)._states()[0]
-        self._take_over(Streams(model, half_life is not None, fresh, settings.get("threads")))
+        fresh = Fleet(2, len(columns.regressors), **chosen)._states()[0]
+        self._take_over(Streams(columns, half_life is not None, fresh, settings.get("threads")))
 
     def _take_over(self, streams: Streams) -> None:
         self._streams, self._lock = streams, Lock()

@@ -9,10 +9,14 @@ from typing import Any
 from forgetting._core import InvalidInput
 from forgetting.models.lags import names
 from forgetting.models.orders import Orders
+from forgetting.models.text import linear
 from forgetting.words.duration import seconds_of
+from forgetting.words.errors import RecordError
 
 NAMES = ("prediction", "error", "leverage", "theta", "variance", "skipped")
 """All outputs of a row."""
+EXAMPLE = "arx:na=2,nb=2,nk=1"
+"""A model in words."""
 STANDING = ("rows", "samples", "missing", "late", "status")
 """What is told of a stream, besides its parameters."""
 
@@ -101,8 +105,13 @@ def made(
     offset: bool,
     arx: Sequence[int] | Orders | None,
     gap: Any,
+    model: str | None = None,
 ) -> Model:
     """The model of what a user gives; one column needs no list, and a gap may be a text."""
+    if model is not None:
+        if arx is not None:
+            raise InvalidInput(f"model = {model!r} with arx, allowed: one of them")
+        arx = orders_of(model)
     if arx is not None and not isinstance(arx, Orders):
         if len(arx) != 3:
             raise InvalidInput(f"arx = {tuple(arx)}, allowed: three whole numbers na, nb, nk")
@@ -113,3 +122,20 @@ def made(
         raise InvalidInput(f"gap = {gap!r}: {error}") from None
     columns = (phi,) if isinstance(phi, str) else tuple(phi)
     return Model(key, y, columns, time, offset, arx, longest)
+
+
+def orders_of(model: str) -> list[int]:
+    """The orders na, nb, nk that a model in words has.
+
+    Examples
+    --------
+    >>> orders_of("arx:na=2,nb=2,nk=1"), orders_of("fir:nb=3")
+    ([2, 2, 1], [0, 3, 0])
+    """
+    try:
+        orders = linear(model) if isinstance(model, str) else None
+    except RecordError as error:
+        raise InvalidInput(f"model = {model!r}: {error}") from None
+    if orders is None:
+        raise InvalidInput(f"model = {model!r}, allowed: fir, ar or arx, such as {EXAMPLE!r}")
+    return orders
