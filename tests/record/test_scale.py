@@ -19,12 +19,16 @@ from forgetting.record import identify, samples
 from forgetting.record.moved import Moved
 from forgetting.record.origin import origin
 from forgetting.record.read import Record, read
+from forgetting.record.regression import regression
 from forgetting.record.samples import Samples
 
 COLUMNS = 8
-MOST = 42
+MOST = 40
 """Columns of numbers that an identification may hold at a time, 8 regressors among them: these and
 the output, the estimates and their variances (25), what is known of every sample (5), and work."""
+MADE = 22
+"""Columns that a formula may take beside the table: 8 regressors and the output as formulaic gives
+them, the same as samples, and work."""
 
 
 def wide(rows: int) -> pd.DataFrame:
@@ -51,6 +55,17 @@ def test_a_record_is_not_there_twice(rule, constant):
     model = f"y ~ {constant} + " + " + ".join(f"x{i}" for i in range(COLUMNS))
     more = 3 * int(constant)  # regressor, estimate and variance of the constant
     assert peak_columns(model, 400_000, rule=rule) < MOST + more
+
+
+def test_a_formula_takes_the_columns_of_a_table_as_they_are():
+    record, model = read(wide(400_000)), "y ~ 0 + " + " + ".join(f"x{i}" for i in range(COLUMNS))
+    regression(read(wide(500)), model)  # libraries are loaded
+    gc.collect()
+    tracemalloc.start()
+    regression(record, model)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak / (8 * len(record.frame)) < MADE
 
 
 @pytest.fixture

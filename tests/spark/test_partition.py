@@ -155,6 +155,16 @@ def test_what_is_refused_before_any_worker_hears_of_it(change, words):
         design_of(Table(given), OUTPUTS, [], settings)
 
 
+@pytest.mark.parametrize(
+    ("text", "orders"), [("arx:na=1,nb=2,nk=0", (1, 2, 0)), ("fir:nb=2,nk=1", (0, 2, 1))]
+)
+def test_a_model_as_a_text_is_the_one_of_its_orders(text, orders):
+    given = table(rows=200)
+    found = run(design_for(given, model=text, gap="2h"), given)
+    assert found == run(design_for(given, arx=orders, gap="2h"), given)
+    assert pc.count(found[0].column("prediction")).as_py() > 0
+
+
 def test_a_kept_column_has_a_name_of_its_own():
     given = table(rows=20).rename_columns(["meter", "t", "u", "y", "error"])
     settings = {"key": "meter", "y": "y", "phi": ["u"], "time": "t"}

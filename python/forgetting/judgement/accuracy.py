@@ -42,7 +42,8 @@ def intervals(errors: Array, predicted: Array, of: str) -> Finding | None:
     count = int(there.sum())
     if count < FEWEST:
         return None
-    inside = float(np.mean(np.abs(errors[there]) <= DEVIATIONS * predicted[there]))
+    within = np.abs(errors) <= DEVIATIONS * predicted
+    inside = int((within & there).sum()) / count
     chance = math.sqrt(NOMINAL * (1 - NOMINAL) / count)
     figure = (
         f"{inside:.1%} of the errors of {of} are within two predicted standard deviations "

@@ -60,6 +60,8 @@ class NamedModel:
         forgetting.InvalidInput
             For a structure that does not exist, an order that it does not have, or no number.
         """
+        if not isinstance(text, str):
+            raise InvalidInput(f"model = {text!r}, allowed: a text such as 'arx:na=2,nb=2,nk=1'")
         name, orders = parts(text)
         return cls(name, tuple((order, value_of(name, order, said)) for order, said in orders))
 

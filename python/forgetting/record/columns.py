@@ -65,7 +65,9 @@ def numbers(frame: pd.DataFrame, name: str, source: str) -> NDArray[np.float64]:
 
 
 def to_numbers(column: pd.Series) -> pd.Series:
-    """Numbers of a column, NaN for what is none."""
+    """Numbers of a column, NaN for what is none; the column itself where it is float64."""
+    if column.dtype == np.float64:
+        return column
     try:
         parsed = pd.to_numeric(column, errors="coerce")
     except TypeError:

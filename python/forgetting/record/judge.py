@@ -150,9 +150,7 @@ def of_outputs(judged: Judged) -> Iterator[Finding | None]:
     """Findings on the errors of each output, and the poles of all."""
     settled, trace = judged.settled, judged.trace
     if trace.weights is not None:  # P of members that do not count swells the leverage of a bank
-        trace = replace(trace, leverage=np.zeros_like(trace.leverage))
-    noise = np.full_like(trace.error, np.nan)
-    noise[1:] = noise_variance(trace)[:-1]  # before each sample
+        trace = replace(trace, leverage=np.broadcast_to(0.0, trace.leverage.shape))
     spread = np.sqrt(1 + trace.leverage)
     for j, name in enumerate(judged.samples.outputs):
         yield beside(judged.scores, j, name)
@@ -160,14 +158,24 @@ def of_outputs(judged: Judged) -> Iterator[Finding | None]:
             yield Finding("residuals", "good", f"The one-step errors of {name} are negligible.")
             continue
         error = np.where(settled, trace.error[:, j], np.nan)
-        yield accuracy.intervals(error, spread * np.sqrt(noise[:, j]), name)
+        yield accuracy.intervals(error, predicted(trace, spread, j), name)
+        error /= spread  # in place: a long record is not there twice
         deep = judged.feedback.deepest
-        past = residuals.own_past(error / spread, deep)
+        past = residuals.own_past(error, deep)
         yield residuals.whiteness(past, name, deep)
         if past is not None:
-            white = inputs.whitened(error / spread, past.prediction)
+            white = inputs.whitened(error, past.prediction)
             yield inputs.inputs(white, signals(judged), name)
     yield stability(judged)
+
+
+def predicted(trace: Trace, spread: Array, j: int) -> Array:
+    """Standard deviation of the error of output j as known before each sample, (T,)."""
+    noise = noise_variance(trace)[:, j]
+    found = np.full_like(noise, np.nan)
+    np.sqrt(noise[:-1], out=found[1:])
+    found *= spread
+    return found
 
 
 def beside(scores: Scores, j: int, name: str) -> Finding | None:

@@ -16,6 +16,7 @@ from forgetting.record.found import Found
 from forgetting.record.frames import to_pandas, with_index
 from forgetting.record.missing import Words, without_numbers, without_words
 from forgetting.record.names import distinct
+from forgetting.record.release import release
 from forgetting.words.errors import RecordError
 
 if TYPE_CHECKING:
@@ -128,6 +129,7 @@ def read(
         record = from_table(table, name, None if str(path) == "-" else path)
     else:
         record = from_table(Table(to_pandas(source), "data frame"), "record", None)
+    release(len(record.frame))  # what reading took besides
     if len(record.frame) == 0:
         raise RecordError(f"{record.name} has a header and no rows")
     return with_clock(record, time, gap, words)

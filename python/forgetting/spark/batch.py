@@ -118,7 +118,7 @@ def identify(
     y : str
         Column of the measurements.
     phi : str or sequence of str
-        Columns of the regressors; with `arx` the inputs.
+        Columns of the regressors; with `arx` or `model` the inputs.
     time : str
         Column of times: numbers, dates or timestamps.
     state : pyspark.sql.DataFrame, optional
@@ -131,7 +131,8 @@ def identify(
     partitions : int, optional
         As of ``df.repartition``.
     **settings
-        The others of `TableFleet`: offset, arx, gap, half_life, rule, forgetting_factor, ...
+        The others of `TableFleet`: offset, arx, model (such as ``"arx:na=2,nb=2,nk=1"``), gap,
+        half_life, rule, forgetting_factor, ...
 
     Returns
     -------
