@@ -50,7 +50,7 @@ def peak_columns(model: str, rows: int, **options) -> float:
 def test_a_record_is_not_there_twice(rule, constant):
     model = f"y ~ {constant} + " + " + ".join(f"x{i}" for i in range(COLUMNS))
     more = 3 * int(constant)  # regressor, estimate and variance of the constant
-    assert peak_columns(model, 400_000, rule=rule) < MOST + more
+    assert peak_columns(model, 200_000, rule=rule) < MOST + more
 
 
 @pytest.fixture
