@@ -21,6 +21,12 @@ def test_identify_as_a_process(battery):
     assert json.loads(done.stdout)["record"] == "battery.csv"
 
 
+def test_standard_input_of_a_process(battery):
+    done = run("identify", "-", "-f", "V ~ I", "--json", input=battery.read_text())
+    assert (done.returncode, done.stderr) == (0, "")
+    assert json.loads(done.stdout)["record"] == "standard input"
+
+
 def test_refusal_as_a_process(tmp_path):
     done = run("identify", tmp_path / "nothing.csv", "-f", "V ~ I")
     assert (done.returncode, done.stdout) == (2, "")

@@ -24,6 +24,11 @@ def csv(tmp_path: Path) -> Callable[[str], Path]:
 
 @pytest.fixture
 def plant() -> pd.DataFrame:
+    """The record of a plant, for this test alone."""
+    return plant_record()
+
+
+def plant_record() -> pd.DataFrame:
     """Two inputs, two outputs, a difference equation with a little noise, 400 samples of 0.5 s."""
     rng = np.random.default_rng(7)
     u = rng.normal(size=(400, 2))

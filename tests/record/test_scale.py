@@ -54,7 +54,7 @@ def peak_columns(model: str, rows: int, **options) -> float:
 def test_a_record_is_not_there_twice(rule, constant):
     model = f"y ~ {constant} + " + " + ".join(f"x{i}" for i in range(COLUMNS))
     more = 3 * int(constant)  # regressor, estimate and variance of the constant
-    assert peak_columns(model, 400_000, rule=rule) < MOST + more
+    assert peak_columns(model, 200_000, rule=rule) < MOST + more
 
 
 def test_a_formula_takes_the_columns_of_a_table_as_they_are():

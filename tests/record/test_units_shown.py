@@ -11,7 +11,7 @@ import pytest
 from forgetting.cli.app import run
 from forgetting.plot import parameter, prediction
 from forgetting.record import identify, theory
-from forgetting.report import save, save_certificate
+from forgetting.report import save_certificate
 
 
 @pytest.fixture
@@ -90,11 +90,3 @@ def test_a_long_record_is_certified_on_its_end(cell, monkeypatch, tmp_path):
     assert first == 0
     ends = [each.conditions.trajectory.after[-1] for each in (certificate, whole)]
     np.testing.assert_allclose(ends[0], ends[1], rtol=1e-9)
-
-
-def test_reports_of_twelve_parameters_are_small(tmp_path):
-    random = np.random.default_rng(2)
-    frame = pd.DataFrame(random.normal(size=(20_000, 12)), columns=list("abcdefghijkl"))
-    frame["y"] = frame.sum(axis=1) + random.normal(size=20_000)
-    save(identify(frame, formula="y ~ 0 + " + " + ".join("abcdefghijkl")), tmp_path / "r.html")
-    assert (tmp_path / "r.html").stat().st_size < 2_000_000
