@@ -48,7 +48,8 @@ class TableFleet:
     arx : (na, nb, nk) or Orders, optional
         Makes regressors of each stream's own past, see `forgetting.ARX`.
     model : str, optional
-        In the place of `arx` the same by name: ``"arx:na=2,nb=2,nk=1"``, ``"fir:nb=3"``, ``"ar:na=2"``.
+        In the place of `arx` the same by name: ``"arx:na=2,nb=2,nk=1"``, ``"fir:nb=3"`` or
+        ``"ar:na=2"``.
     gap : str, duration or float, optional
         Longest step in time that lags reach across, such as "5min"; any if not given.
     half_life : str, duration or float, optional
