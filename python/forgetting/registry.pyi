@@ -643,7 +643,8 @@ class Exponential(Rule):
 
     - Proper (A1): always.
     - P̄ bounded above without excitation (A2): no. In a direction without excitation P grows as
-      λ⁻ᵏ (windup): the update reports it, and refuses the sample before P overflows.
+      λ⁻ᵏ (windup): the update reports it. At the end of the range of numbers P stays
+      below, and nothing is forgotten until the input returns.
     - P bounded below (A3): if λ_k ≤ λ_max < 1 and φ is bounded.
     - Cost: O(p n²). State: P alone.
     - Use it when the input excites every parameter all the time. When it may fall silent, use
