@@ -60,15 +60,21 @@ pub enum Refused {
 }
 
 impl<T: Real, const N: usize> Compact<'_, T, N> {
-    /// Forgets, measures and corrects.
+    /// Forgets, measures and corrects. A sample whitened elsewhere comes with its whitened error, which
+    /// is then what is reported; `y` is not read.
     ///
     /// # Errors
     /// [`Refused`]; nothing has changed.
     // always, so that what calls it with one form compiles that one only
     #[inline(always)]
-    pub fn take(&mut self, form: Form<T>, phi: &[T; N], y: T) -> Result<Outcome<T>, Refused> {
+    pub fn take(
+        &mut self,
+        form: Form<T>,
+        (phi, y): (&[T; N], T),
+        whitened: Option<T>,
+    ) -> Result<Outcome<T>, Refused> {
         let (product, squares) = few_products::<T, T, N>(phi, self.theta);
-        let error = y - product;
+        let error = whitened.unwrap_or(y - product);
         if !accepts(error, squares) {
             return Err(Refused::Sample);
         }
