@@ -12,6 +12,8 @@
 #                Debian's apt-get, or says what is missing
 #   make sdist   the source distribution, built without git and installed into an empty environment;
 #                compiles everything, in some five minutes
+#   make crates  what cargo would publish, in which order, without doing so; then the oldest Rust that is
+#                promised compiles it, where rustup can get that
 #   make spark   tests on Spark, with a cluster of two workers on this machine; needs a Java runtime, and sets up an
 #                environment of its own in .venv-spark. FORGETTING_FULL=1 for all engines beside one another
 #   make fuzz    random input for FUZZ_SECONDS a target (an hour), new seeds each time: estimators, saved
@@ -43,7 +45,7 @@ FUZZ_SECONDS ?= 3600
 SOAK_STEPS ?= 1000000000
 SOAK_FOLDER ?= $(CURDIR)/build/soak
 
-.PHONY: accuracy c embedded fuzz java soak spark demo test lint rust python build bench bench-full docs sdist stubs web clean
+.PHONY: accuracy c crates embedded fuzz java soak spark demo test lint rust python build bench bench-full docs sdist stubs web clean
 
 demo: $(VENV)/records
 	$(DEVELOP) --profile $(PROFILE) --extras cli
@@ -55,6 +57,7 @@ lint: build
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --quiet -- -D warnings
 	cargo clippy --package forgetting --no-default-features --quiet -- -D warnings
+	cargo clippy --package forgetting --features serde --quiet -- -D warnings
 	cargo clippy --package forgetting-c --features general --quiet -- -D warnings
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
@@ -62,6 +65,7 @@ lint: build
 
 rust:
 	cargo test --workspace --exclude forgetting-py --exclude forgetting-wasm --profile $(PROFILE) --quiet
+	cargo test --package forgetting --features serde --test serde --profile $(PROFILE) --quiet
 
 python: build
 	$(WITH_RECORDS) $(BIN)/pytest -n auto
@@ -81,6 +85,15 @@ $(VENV)/ready: pyproject.toml $(VENV)/records
 	cargo clippy --version >/dev/null && cargo fmt --version >/dev/null
 	$(DEVELOP) --profile $(PROFILE) --extras cli,test
 	touch $@
+
+# the oldest Rust that is promised
+OLDEST := $(shell sed -n 's/^rust-version = "\(.*\)"/\1/p' Cargo.toml)
+crates:
+	cargo publish --workspace --exclude forgetting-py --dry-run --no-verify --allow-dirty
+	if rustup toolchain install $(OLDEST) --profile minimal --no-self-update >/dev/null 2>&1; then \
+	    cargo +$(OLDEST) check --quiet --package forgetting --features forgetting/serde \
+	        --package forgetting-runtime --package forgetting-c --features forgetting-c/general; \
+	    else echo "crates: not compiled with Rust $(OLDEST), which rustup cannot get here"; fi
 
 c: build
 	$(MAKE) --no-print-directory -C crates/forgetting-c test PYTHON=$(CURDIR)/$(BIN)/python

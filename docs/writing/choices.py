@@ -12,6 +12,7 @@ from forgetting.choices import Axis
 from . import example, figure
 from .advice import when_not
 from .header import Header, parsed
+from .live import live
 from .shown import made
 from .typeset import block, formula, prose
 from .write import write
@@ -50,6 +51,7 @@ def page(axis: Axis, about: Mapping[str, Any]) -> str:
         f"# {about['name']}",
         prose(head.summary, names),
         picture(axis, about),
+        *live(axis.name, about),
         *use(axis, head, about, names),
         *equations(head, names),
         *properties(axis, head, names),

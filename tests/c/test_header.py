@@ -9,7 +9,10 @@ from pathlib import Path
 
 CRATE = Path(__file__).parents[2] / "crates" / "forgetting-c"
 HEADER = (CRATE / "include" / "forgetting.h").read_text(encoding="utf-8")
-SOURCE = {path.name: path.read_text(encoding="utf-8") for path in (CRATE / "src").glob("*.rs")}
+SOURCE = {
+    path.relative_to(CRATE / "src").as_posix(): path.read_text(encoding="utf-8")
+    for path in (CRATE / "src").rglob("*.rs")
+}
 
 TYPES = {
     "i32": "int32_t",
@@ -67,14 +70,15 @@ def declared(name: str, rust: str) -> str:
 
 def functions_of_source() -> set[str]:
     """Every exported function; those that a macro makes for both number types are written out."""
-    text = SOURCE["api.rs"] + SOURCE["kinds.rs"]
+    text = SOURCE["api/mod.rs"] + SOURCE["api/typed.rs"] + SOURCE["kinds.rs"]
     body = text[text.index("macro_rules! typed") : text.index("\ntyped!(")]
+    places = re.findall(r"\$(\w+):ident", body)
     calls = re.findall(r"^typed!\((.*?)\);", text, flags=re.MULTILINE | re.DOTALL)
     text = text.replace(body, "")
     for call in calls:
-        real, _, *names = [part.strip() for part in call.replace("\n", " ").split(",")][:6]
+        real, _, *names = [part.strip() for part in call.split(",")]
         made = body.replace("$T", real)
-        for place, name in zip(("update", "predict", "theta", "covariance"), names, strict=True):
+        for place, name in zip(places, names, strict=True):
             made = made.replace(f"fn ${place}(", f"fn {name}(")
         text += made
     found = set()

@@ -6,6 +6,7 @@ import pytest
 from writing import example, figure
 from writing.advice import when_not
 from writing.header import parsed
+from writing.live import live
 from writing.record import BOTH_SILENT, ONE_SILENT, record
 from writing.shown import made, making
 
@@ -58,3 +59,9 @@ def test_windup_is_said_of_rules_without_a_bound():
     entries = {about["name"]: about for about in AXES["rule"].entries}
     assert any("silent" in each for each in when_not("rule", entries["exponential"]))
     assert not any("silent" in each for each in when_not("rule", entries["subspace"]))
+
+
+def test_a_rule_is_shown_live_where_the_playground_offers_it():
+    shown = {about["name"] for axis, about in CHOICES if live(axis.name, about)}
+    rules = {about["name"] for about in AXES["rule"].entries}
+    assert shown == rules - {"custom"}  # which takes a function

@@ -4,9 +4,9 @@
 
 `OUT` holds the archives, a folder for each target. Code is bytes of instructions and constants: of
 the functions that an update runs, of all that the library and its arithmetic bring to the program,
-and the same where the program saves its state. Instructions are those that QEMU counts, tickwise on
-ARM, and include the call. Estimates are compared bit for bit, after every
-sample, with `RLS(dtype="float32")` in plain arithmetic.
+and the same where the program saves its state and holds its estimate within bounds. Instructions
+are those that QEMU counts, tickwise on ARM, and include the call. Estimates are compared bit for
+bit, after every sample, with `RLS(dtype="float32")` in plain arithmetic.
 """
 
 from __future__ import annotations
@@ -30,6 +30,8 @@ OUT = Path(os.environ["OUT"])
 # of the battery, and of the others, which only add to the table
 SAMPLES = {2: 100_000, 4: 10_000, 6: 10_000}
 FORGETTING_FACTOR = 0.99609375
+# of every parameter, above what the cell has
+LEAST_RESISTANCE = 0.078125
 RULES = ["exponential", "subspace", "random_walk"]
 # rules that use no forgetting factor
 WITHOUT_FACTOR = ["random_walk"]
@@ -90,6 +92,16 @@ MACHINES = [
         0x10000,
     ),
     Machine(
+        "Cortex-M33 with FPU (mps2-an505)",
+        "thumbv8m.main-none-eabihf",
+        ARM,
+        ("-mcpu=cortex-m33", "-mthumb", "-mfloat-abi=hard", "-mfpu=fpv5-sp-d16"),
+        ("qemu-system-arm", "-M", "mps2-an505"),
+        0x10000000,
+        0x38000000,
+        0x10000,
+    ),
+    Machine(
         "RISC-V rv32imc (virt)",
         "riscv32imc-unknown-none-elf",
         RISCV,
@@ -123,6 +135,7 @@ def compiled(machine: Machine, rule: str, n: int, saves: bool = True) -> tuple[P
     options += ["-ffreestanding", "-Wall", "-Wextra", "-Werror", f"-I{HERE.parent / 'include'}"]
     options += [f"-DKIND=fg_{rule}_f32_{n}", f"-DN={n}", f"-DSAMPLES={SAMPLES[n]}"]
     options += [f"-DFORGETTING_FACTOR={factor(rule) or 0}"]
+    options += [f"-DLEAST_RESISTANCE={LEAST_RESISTANCE}f"]
     options += [] if saves else ["-DWITHOUT_SAVING"]
     objects = []
     for source in ("battery.c", "machine.c"):
@@ -203,8 +216,8 @@ def samples(n: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     return phi, voltage + numbers[:, -1] / np.float32(1024)
 
 
-def expected(rule: str, n: int) -> tuple[str, str]:
-    """The hash of all estimates, and the state at the end, of Python."""
+def expected(rule: str, n: int) -> tuple[str, str, NDArray[np.float32]]:
+    """The hash of all estimates, the state at the end and its estimate within bounds, of Python."""
     rls = fg.RLS(
         n,
         rule=rule,
@@ -220,16 +233,24 @@ def expected(rule: str, n: int) -> tuple[str, str]:
     value = 2166136261
     for byte in thetas.tobytes():
         value = ((value ^ byte) * 16777619) % 2**32
-    return f"{value:08x}", rls.to_bytes().hex()
+    wide = (np.asarray(x, dtype=np.float64) for x in (rls.theta, rls.covariance))
+    held = fg.bounded(*wide, np.full(n, LEAST_RESISTANCE), np.full(n, np.inf))
+    return f"{value:08x}", rls.to_bytes().hex(), held.astype(np.float32)
 
 
-def row(machine: Machine, rule: str, n: int, truth: tuple[str, str]) -> tuple[bool, str]:
+def row(
+    machine: Machine, rule: str, n: int, truth: tuple[str, str, NDArray[np.float32]]
+) -> tuple[bool, str]:
     """A line of the table, and whether the bits are Python's."""
     program, code = compiled(machine, rule, n)
     _, without_saving = compiled(machine, rule, n, saves=False)
     found = measured(machine, program)
-    same = (found.get("hash"), found.get("state")) == truth
-    number = {key: int(text, 16) for key, text in found.items() if key not in ("hash", "state")}
+    held = np.frombuffer(bytes.fromhex(found.get("held", "")), np.float32)
+    same = (found.get("hash"), found.get("state")) == truth[:2]
+    # P is summed in another order than Python's
+    same &= held.shape == truth[2].shape and np.allclose(held, truth[2], rtol=1e-4)
+    texts = ("hash", "state", "held")
+    number = {key: int(text, 16) for key, text in found.items() if key not in texts}
     instructions = number["ticks"] / number["loop"] * LOOP / SAMPLES[n]
     cells = [
         rule,
@@ -258,7 +279,7 @@ def main() -> int:
         print(f"\n{machine.name}\n")
         print(
             "| rule | n | state, bytes | stack, bytes | code of an update | code of the library | "
-            "code with saving | instructions an update | bits of Python |"
+            "code with saving and bounds | instructions an update | bits of Python |"
         )
         print("|---|---|---|---|---|---|---|---|---|")
         for (rule, n), truth in truths.items():

@@ -184,6 +184,16 @@ int32_t fg_update_f32(fg_estimator *estimator, const float *phi, size_t n, float
 int32_t fg_update_f64(fg_estimator *estimator, const double *phi, size_t n, double y,
                       fg_report_f64 *report);
 
+/* The same of a sample that comes `elapsed` after the last one, in any unit of time: lambda^elapsed, at
+ * least 1/1024, takes the place of lambda, and process noise counts so many times; fg_update takes one
+ * unit. `gamma` is the variance of its noise, in units of that of the others, which have 1; null if it is
+ * not known. So a sample of weight w has gamma = 1/w.
+ * Errors: as fg_update; VALUE for a time below 0, and for a variance that is not positive. */
+int32_t fg_update_after_f32(fg_estimator *estimator, float elapsed, const float *phi, size_t n, float y,
+                            const float *gamma, fg_report_f32 *report);
+int32_t fg_update_after_f64(fg_estimator *estimator, double elapsed, const double *phi, size_t n, double y,
+                            const double *gamma, fg_report_f64 *report);
+
 /* phi theta of n numbers phi. Errors: as fg_update, but for VALUE and RANGE. */
 int32_t fg_predict_f32(fg_estimator *estimator, const float *phi, size_t n, float *prediction);
 int32_t fg_predict_f64(fg_estimator *estimator, const double *phi, size_t n, double *prediction);
@@ -192,19 +202,41 @@ int32_t fg_predict_f64(fg_estimator *estimator, const double *phi, size_t n, dou
 int32_t fg_theta_f32(fg_estimator *estimator, float *theta, size_t n);
 int32_t fg_theta_f64(fg_estimator *estimator, double *theta, size_t n);
 
+/* Goes on from these n numbers theta; P stays as it is.
+ * Errors: as fg_predict; VALUE for a number that is not finite, or larger than the root of the largest. */
+int32_t fg_set_theta_f32(fg_estimator *estimator, const float *theta, size_t n);
+int32_t fg_set_theta_f64(fg_estimator *estimator, const double *theta, size_t n);
+
+/* theta (n numbers) within lower <= theta <= upper, n numbers each, -INFINITY and INFINITY where there is no
+ * bound, null where there is none at all: the point of that box that is nearest in the metric of the
+ * inverse of P. If the true parameters are inside, the error in that metric is at most that of fg_theta.
+ * The estimator is as it was; fg_set_theta goes on from the result. It computes in double, takes 2 kB of
+ * stack up to 8 parameters and 30 kB above, and is Python's `bounded`.
+ * Errors: as fg_predict; VALUE where a lower bound is above the upper one, or is not a number; INDEFINITE
+ * for a P that is singular to rounding. What `theta` points to is then as it was. */
+int32_t fg_bounded_f32(fg_estimator *estimator, const float *lower, const float *upper, size_t n,
+                       float *theta);
+int32_t fg_bounded_f64(fg_estimator *estimator, const double *lower, const double *upper, size_t n,
+                       double *theta);
+
 /* P, n x n numbers, in units of 1/phi^2: times the variance of the noise, the covariance of theta.
  * Errors: as fg_predict. */
 int32_t fg_covariance_f32(fg_estimator *estimator, float *covariance, size_t n);
 int32_t fg_covariance_f64(fg_estimator *estimator, double *covariance, size_t n);
 
-/* fg_update, fg_predict, fg_theta and fg_covariance: whichever of the two the type of the array says. */
+/* fg_update, fg_update_after, fg_predict, fg_theta, fg_set_theta, fg_bounded and fg_covariance: whichever of
+ * the two the type of the array says. */
 #if !defined(__cplusplus) && defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L
 #define FG_OF_TYPE(array, function)                                                   \
     _Generic((array), float *: function##_f32, const float *: function##_f32,         \
         double *: function##_f64, const double *: function##_f64)
 #define fg_update(estimator, phi, n, y, report) FG_OF_TYPE(phi, fg_update)(estimator, phi, n, y, report)
+#define fg_update_after(estimator, elapsed, phi, n, y, gamma, report) \
+    FG_OF_TYPE(phi, fg_update_after)(estimator, elapsed, phi, n, y, gamma, report)
 #define fg_predict(estimator, phi, n, prediction) FG_OF_TYPE(phi, fg_predict)(estimator, phi, n, prediction)
 #define fg_theta(estimator, theta, n) FG_OF_TYPE(theta, fg_theta)(estimator, theta, n)
+#define fg_set_theta(estimator, theta, n) FG_OF_TYPE(theta, fg_set_theta)(estimator, theta, n)
+#define fg_bounded(estimator, lower, upper, n, theta) FG_OF_TYPE(theta, fg_bounded)(estimator, lower, upper, n, theta)
 #define fg_covariance(estimator, covariance, n) FG_OF_TYPE(covariance, fg_covariance)(estimator, covariance, n)
 #endif
 

@@ -63,8 +63,11 @@ template <> struct Functions<float> {
     static constexpr int32_t number = FG_F32;
     using Report = fg_report_f32;
     static constexpr auto update = fg_update_f32;
+    static constexpr auto update_after = fg_update_after_f32;
     static constexpr auto predict = fg_predict_f32;
     static constexpr auto theta = fg_theta_f32;
+    static constexpr auto set_theta = fg_set_theta_f32;
+    static constexpr auto bounded = fg_bounded_f32;
     static constexpr auto covariance = fg_covariance_f32;
 };
 
@@ -72,8 +75,11 @@ template <> struct Functions<double> {
     static constexpr int32_t number = FG_F64;
     using Report = fg_report_f64;
     static constexpr auto update = fg_update_f64;
+    static constexpr auto update_after = fg_update_after_f64;
     static constexpr auto predict = fg_predict_f64;
     static constexpr auto theta = fg_theta_f64;
+    static constexpr auto set_theta = fg_set_theta_f64;
+    static constexpr auto bounded = fg_bounded_f64;
     static constexpr auto covariance = fg_covariance_f64;
 };
 
@@ -193,6 +199,21 @@ template <class T> class Estimator {
     Report update(const std::vector<T> &phi, T y) { return update(phi.data(), phi.size(), y); }
     Report update(std::initializer_list<T> phi, T y) { return update(phi.begin(), phi.size(), y); }
 
+    /// Takes a sample of n numbers that comes `elapsed` after the last one.
+    Report update_after(T elapsed, const T *phi, std::size_t n, T y) {
+        return take(elapsed, phi, n, y, nullptr);
+    }
+    /// The same, the variance of its noise being `gamma`.
+    Report update_after(T elapsed, const T *phi, std::size_t n, T y, T gamma) {
+        return take(elapsed, phi, n, y, &gamma);
+    }
+    Report update_after(T elapsed, const std::vector<T> &phi, T y) {
+        return update_after(elapsed, phi.data(), phi.size(), y);
+    }
+    Report update_after(T elapsed, const std::vector<T> &phi, T y, T gamma) {
+        return update_after(elapsed, phi.data(), phi.size(), y, gamma);
+    }
+
     /// phi theta
     T predict(const T *phi, std::size_t n) const {
         T prediction;
@@ -211,6 +232,18 @@ template <class T> class Estimator {
     std::vector<T> theta() const {
         std::vector<T> theta(parameters_);
         detail::check(F::theta(estimator_, theta.data(), parameters_));
+        return theta;
+    }
+
+    /// Goes on from n numbers.
+    void set_theta(const std::vector<T> &theta) {
+        detail::check(F::set_theta(estimator_, theta.data(), theta.size()));
+    }
+
+    /// theta within n bounds on either side; none where there are none
+    std::vector<T> bounded(const std::vector<T> &lower, const std::vector<T> &upper) const {
+        std::vector<T> theta(parameters_);
+        detail::check(F::bounded(estimator_, bounds(lower), bounds(upper), parameters_, theta.data()));
         return theta;
     }
 
@@ -250,6 +283,18 @@ template <class T> class Estimator {
     };
 
     Estimator() = default;
+
+    const T *bounds(const std::vector<T> &of) const {
+        if (!of.empty() && of.size() != parameters_)
+            throw Error(FG_ERROR_LENGTH, "bounds are of another number of elements than parameters");
+        return of.empty() ? nullptr : of.data();
+    }
+
+    Report take(T elapsed, const T *phi, std::size_t n, T y, const T *gamma) {
+        Report report;
+        detail::check(F::update_after(estimator_, elapsed, phi, n, y, gamma, &report));
+        return report;
+    }
 
     void take(const fg_kind *kind) {
         if (!kind) throw Error(FG_ERROR_VALUE, "there is no kind for so many parameters");

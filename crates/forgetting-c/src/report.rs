@@ -1,5 +1,6 @@
 //! What an update reports, and what a monitor has found.
 
+use forgetting::Update;
 use forgetting_kernels::Real;
 
 /// What became of a sample; `T` is the number type of the estimator.
@@ -48,6 +49,21 @@ pub struct Health {
     pub informed: u8,
     /// 0
     pub reserved: [u8; 6],
+}
+
+impl<T: Real> From<Update<'_, T>> for Report<T> {
+    fn from(update: Update<'_, T>) -> Self {
+        Self {
+            error: update.error.first().copied().unwrap_or(T::ZERO),
+            leverage: update.leverage,
+            forgetting_factor: update.forgetting_factor,
+            weight: update.weight,
+            used: u8::from(update.skipped.is_none()),
+            windup: u8::from(update.windup),
+            gate: update.gate.code(),
+            reserved: 0,
+        }
+    }
 }
 
 impl<T: Real> From<forgetting::Health<'_, T>> for Health {

@@ -63,6 +63,13 @@ def load() -> ctypes.CDLL:
     for name, real in (("f32", c_float), ("f64", c_double)):
         update = getattr(library, f"fg_update_{name}")
         update.argtypes = [c_void_p, c_void_p, c_size_t, real, c_void_p]
+        after = getattr(library, f"fg_update_after_{name}")
+        after.argtypes = [c_void_p, real, c_void_p, c_size_t, real, c_void_p, c_void_p]
+        bounded = getattr(library, f"fg_bounded_{name}")
+        bounded.argtypes = [c_void_p, c_void_p, c_void_p, c_size_t, c_void_p]
+        for function in ("set_theta", "theta", "covariance"):
+            one = getattr(library, f"fg_{function}_{name}")
+            one.argtypes = [c_void_p, c_void_p, c_size_t]
     library.fg_init.argtypes = [c_void_p, c_size_t, c_void_p, c_void_p, c_void_p, c_void_p]
     library.fg_load.argtypes = [
         c_void_p,
@@ -88,7 +95,12 @@ class Estimator:
         assert self.kind, (rule, dtype, n)
         self.size = library.fg_size(self.kind)
         self.memory = (c_double * (self.size // 8 + 1))()
-        self.update_one = getattr(library, "fg_update_" + dtype.replace("loat", ""))
+        self.dtype, short = np.dtype(dtype), dtype.replace("loat", "")
+        self.update_one = getattr(library, f"fg_update_{short}")
+        self.update_one_after = getattr(library, f"fg_update_after_{short}")
+        self.bounded_theta = getattr(library, f"fg_bounded_{short}")
+        self.put_theta = getattr(library, f"fg_set_theta_{short}")
+        self.read_covariance = getattr(library, f"fg_covariance_{short}")
 
     def init(self, settings: Settings) -> Estimator:
         """Made from settings."""
@@ -115,6 +127,35 @@ class Estimator:
         memory = ctypes.addressof(self.memory)
         for row, value in zip(phi, y, strict=True):
             self.check(self.update_one(memory, row.ctypes.data, self.n, value, None))
+
+    def update_after(
+        self, elapsed: float, phi: NDArray[np.floating], y: np.floating, gamma: float | None
+    ) -> None:
+        """Takes a sample after a time, of this variance of its noise if that is known."""
+        known = None if gamma is None else np.array([gamma], self.dtype).ctypes.data_as(c_void_p)
+        memory = ctypes.addressof(self.memory)
+        self.check(self.update_one_after(memory, elapsed, phi.ctypes.data, self.n, y, known, None))
+
+    def bounded(
+        self, lower: NDArray[np.floating], upper: NDArray[np.floating]
+    ) -> NDArray[np.floating]:
+        """The estimate within bounds."""
+        theta = np.empty(self.n, self.dtype)
+        bounds = [np.ascontiguousarray(x, self.dtype) for x in (lower, upper)]
+        places = [x.ctypes.data for x in bounds]
+        memory = ctypes.addressof(self.memory)
+        self.check(self.bounded_theta(memory, *places, self.n, theta.ctypes.data))
+        return theta
+
+    def covariance(self) -> NDArray[np.floating]:
+        """P."""
+        p = np.empty((self.n, self.n), self.dtype)
+        self.check(self.read_covariance(ctypes.addressof(self.memory), p.ctypes.data, self.n))
+        return p
+
+    def set_theta(self, theta: NDArray[np.floating]) -> None:
+        """Goes on from another estimate."""
+        self.check(self.put_theta(ctypes.addressof(self.memory), theta.ctypes.data, self.n))
 
     def to_bytes(self) -> bytes:
         """As Python's."""

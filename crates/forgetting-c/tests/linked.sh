@@ -11,8 +11,10 @@ int main(void) {
     float phi[4] = {1, 2, 3, 4}, theta[4], p[16];
     fg_estimator *estimator;
     size_t length;
+    float gamma = 2;
     if (fg_init(memory, sizeof memory, &KIND, &settings, &estimator, 0)) return 1;
-    return fg_update_f32(estimator, phi, 4, 1, 0) || fg_theta_f32(estimator, theta, 4) ||
+    return fg_update_f32(estimator, phi, 4, 1, 0) || fg_update_after_f32(estimator, 2, phi, 4, 1, &gamma, 0) ||
+           fg_bounded_f32(estimator, phi, 0, 4, theta) || fg_set_theta_f32(estimator, theta, 4) || fg_theta_f32(estimator, theta, 4) ||
            fg_covariance_f32(estimator, p, 4) || fg_save(estimator, bytes, sizeof bytes, &length) ||
            fg_load(memory, sizeof memory, &KIND, bytes, length, &estimator, 0) || fg_reset(estimator);
 }

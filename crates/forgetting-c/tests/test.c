@@ -89,6 +89,74 @@ static void estimates_are_those_of_the_normal_equations(const fg_kind *kind, fg_
     free(memory);
 }
 
+/* Forgetting by the clock and samples of their own variance, in the normal equations:
+ * R <- lambda^dt R + phi phi'/gamma. */
+static void time_and_variance_are_those_of_the_normal_equations(const fg_kind *kind, fg_choice rule) {
+    double r[N][N] = {{0}}, b[N] = {0}, expected[N], theta[N], phi[N], y;
+    fg_settings settings = usual();
+    settings.rule = rule;
+    void *memory = memory_for(kind);
+    fg_estimator *estimator;
+    CHECK(fg_init(memory, fg_size(kind), kind, &settings, &estimator, NULL) == FG_OK);
+    for (int i = 0; i < N; ++i) r[i][i] = 1 / settings.initial_covariance;
+    for (int k = 0; k < SAMPLES; ++k) {
+        double elapsed = k % 5 * 0.75, gamma = exp(uniform()), lambda = pow(0.97, elapsed);
+        fg_report_f64 report;
+        sample(phi, &y);
+        CHECK(fg_update_after_f64(estimator, elapsed, phi, N, y, &gamma, &report) == FG_OK);
+        CHECK(report.used && fabs(report.forgetting_factor - lambda) < 1e-15);
+        for (int i = 0; i < N; ++i) {
+            for (int j = 0; j < N; ++j) r[i][j] = lambda * r[i][j] + phi[i] * phi[j] / gamma;
+            b[i] = lambda * b[i] + phi[i] * y / gamma;
+        }
+    }
+    solve(r, b, expected);
+    CHECK(fg_theta_f64(estimator, theta, N) == FG_OK);
+    for (int i = 0; i < N; ++i) CHECK(fabs(theta[i] - expected[i]) < 1e-10);
+    free(memory);
+}
+
+/* (x - theta)' R (x - theta) */
+static double distance(double r[N][N], const double x[N], const double theta[N]) {
+    double sum = 0;
+    for (int i = 0; i < N; ++i)
+        for (int j = 0; j < N; ++j) sum += (x[i] - theta[i]) * r[i][j] * (x[j] - theta[j]);
+    return sum;
+}
+
+/* The estimate within bounds against a search: no point of the box is nearer in the metric of R, and what is
+ * inside stays. */
+static void bounds_are_held_in_the_metric_of_the_data(const fg_kind *kind, fg_choice rule) {
+    double r[N][N] = {{0}}, theta[N], inside[N], phi[N], y;
+    const double lower[N] = {-INFINITY, -1.5, 0.5}, upper[N] = {1.25, INFINITY, 0.75};
+    fg_settings settings = usual();
+    settings.rule = rule;
+    void *memory = memory_for(kind);
+    fg_estimator *estimator;
+    CHECK(fg_init(memory, fg_size(kind), kind, &settings, &estimator, NULL) == FG_OK);
+    for (int i = 0; i < N; ++i) r[i][i] = 1 / settings.initial_covariance;
+    for (int k = 0; k < 40; ++k) {
+        sample(phi, &y);
+        phi[1] += 0.8 * phi[0];
+        CHECK(fg_update_f64(estimator, phi, N, y, NULL) == FG_OK);
+        for (int i = 0; i < N; ++i)
+            for (int j = 0; j < N; ++j) r[i][j] = 0.97 * r[i][j] + phi[i] * phi[j];
+        CHECK(fg_theta_f64(estimator, theta, N) == FG_OK);
+        CHECK(fg_bounded_f64(estimator, lower, upper, N, inside) == FG_OK);
+        double least = distance(r, inside, theta);
+        for (int i = 0; i < N; ++i) CHECK(inside[i] >= lower[i] && inside[i] <= upper[i]);
+        for (int trial = 0; trial < 200; ++trial) {
+            double other[N], step = pow(10, -4 * fabs(uniform()));
+            for (int i = 0; i < N; ++i) other[i] = fmin(fmax(inside[i] + step * uniform(), lower[i]), upper[i]);
+            CHECK(distance(r, other, theta) >= least * (1 - 1e-9));
+        }
+    }
+    CHECK(fg_bounded_f64(estimator, NULL, NULL, N, inside) == FG_OK && !memcmp(inside, theta, sizeof theta));
+    CHECK(fg_set_theta_f64(estimator, phi, N) == FG_OK);
+    CHECK(fg_theta_f64(estimator, theta, N) == FG_OK && !memcmp(phi, theta, sizeof theta));
+    free(memory);
+}
+
 /* What is refused has changed nothing: all bytes of the memory are compared. */
 static void refusals_change_nothing(const fg_kind *kind) {
     size_t size = fg_size(kind), length;
@@ -128,6 +196,30 @@ static void refusals_change_nothing(const fg_kind *kind) {
         REFUSED(fg_update_f64(estimator, phi, N, y, NULL), FG_ERROR_RANGE);
         phi[i] = kept;
     }
+    double one = 1, wrong[] = {0, -1, NAN, INFINITY};
+    REFUSED(fg_update_after_f64(NULL, 1, phi, N, y, NULL, NULL), FG_ERROR_NULL);
+    REFUSED(fg_update_after_f64(estimator, 1, NULL, N, y, NULL, NULL), FG_ERROR_NULL);
+    REFUSED(fg_update_after_f64(estimator, 1, phi, N + 1, y, &one, NULL), FG_ERROR_LENGTH);
+    REFUSED(fg_update_after_f32(estimator, 1, single, N, 1, NULL, NULL), FG_ERROR_NUMBER_TYPE);
+    REFUSED(fg_update_after_f64(estimator, 1, phi, N, NAN, &one, NULL), FG_ERROR_VALUE);
+    REFUSED(fg_update_after_f64(estimator, 1, phi, N, 1e300, &one, NULL), FG_ERROR_RANGE);
+    for (int i = 0; i < 4; ++i) {
+        REFUSED(fg_update_after_f64(estimator, 1, phi, N, y, &wrong[i], NULL), FG_ERROR_VALUE);
+        if (i > 0) REFUSED(fg_update_after_f64(estimator, wrong[i], phi, N, y, NULL, NULL), FG_ERROR_VALUE);
+    }
+    REFUSED(fg_set_theta_f64(estimator, NULL, N), FG_ERROR_NULL);
+    REFUSED(fg_set_theta_f64(estimator, phi, N - 1), FG_ERROR_LENGTH);
+    REFUSED(fg_set_theta_f32(estimator, single, N), FG_ERROR_NUMBER_TYPE);
+    REFUSED(fg_set_theta_f64(estimator, (const double[]){1, NAN, 1}, N), FG_ERROR_VALUE);
+    REFUSED(fg_set_theta_f64(estimator, (const double[]){1, 1, 1e200}, N), FG_ERROR_VALUE);
+    out[0] = 42;
+    REFUSED(fg_bounded_f64(estimator, NULL, NULL, N, NULL), FG_ERROR_NULL);
+    REFUSED(fg_bounded_f64(estimator, NULL, NULL, 2, out), FG_ERROR_LENGTH);
+    REFUSED(fg_bounded_f64(estimator, (const double[]){0, 0, NAN}, NULL, N, out), FG_ERROR_VALUE);
+    REFUSED(fg_bounded_f64(estimator, (const double[]){0, 0, 2}, (const double[]){1, 1, 1}, N, out), FG_ERROR_VALUE);
+    REFUSED(fg_bounded_f64(estimator, (const double[]){0, 0, INFINITY}, NULL, N, out), FG_ERROR_VALUE);
+    REFUSED(fg_bounded_f32(estimator, NULL, NULL, N, single), FG_ERROR_NUMBER_TYPE);
+    CHECK(out[0] == 42);
     REFUSED(fg_predict_f64(estimator, NULL, N, out), FG_ERROR_NULL);
     REFUSED(fg_predict_f64(estimator, phi, N, NULL), FG_ERROR_NULL);
     REFUSED(fg_theta_f64(estimator, NULL, N), FG_ERROR_NULL);
@@ -301,12 +393,16 @@ static void the_type_of_the_array_chooses(void) {
     CHECK(fg_init(memory[0], 256, &fg_random_walk_f32_2, &settings, &single, NULL) == FG_OK);
     CHECK(fg_init(memory[1], 256, &fg_random_walk_f64_2, &settings, &both, NULL) == FG_OK);
     CHECK(fg_update(single, phi, 2, 3, NULL) == FG_OK && fg_update(both, wide, 2, 3, NULL) == FG_OK);
+    CHECK(fg_update_after(single, 2, phi, 2, 3, NULL, NULL) == FG_OK);
+    CHECK(fg_update_after(both, 2, wide, 2, 3, NULL, NULL) == FG_OK);
     CHECK(fg_update(single, wide, 2, 3, NULL) == FG_ERROR_NUMBER_TYPE);
     CHECK(fg_theta(single, theta, 2) == FG_OK && fg_theta(both, theta_wide, 2) == FG_OK);
     CHECK(fg_covariance(single, p, 2) == FG_OK && fg_covariance(both, p_wide, 2) == FG_OK);
     CHECK(fg_predict(single, phi, 2, &y) == FG_OK && fg_predict(both, wide, 2, &y_wide) == FG_OK);
     CHECK(fabs(theta[0] - theta_wide[0]) < 1e-5 && fabs(p[1] - p_wide[1]) < 1e-5);
     CHECK(fabs(y - y_wide) < 1e-5 && fabs(y - 3) < 0.1);
+    CHECK(fg_bounded(single, NULL, NULL, 2, theta) == FG_OK && fg_set_theta(single, theta, 2) == FG_OK);
+    CHECK(fg_bounded(both, NULL, NULL, 2, theta_wide) == FG_OK && fg_set_theta(both, theta_wide, 2) == FG_OK);
     settings.forgetting_factor = 0.9;
     CHECK(fg_init(memory[0], 256, &fg_random_walk_f32_2, &settings, NULL, NULL) == FG_ERROR_UNSUPPORTED);
 }
@@ -316,6 +412,11 @@ int main(void) {
     estimates_are_those_of_the_normal_equations(&fg_exponential_f64_3, none);
     estimates_are_those_of_the_normal_equations(&fg_general_f64_8, exponential);
     estimates_are_those_of_the_normal_equations(&fg_general_f64_32, exponential);
+    time_and_variance_are_those_of_the_normal_equations(&fg_exponential_f64_3, none);
+    time_and_variance_are_those_of_the_normal_equations(&fg_general_f64_8, exponential);
+    bounds_are_held_in_the_metric_of_the_data(&fg_exponential_f64_3, none);
+    bounds_are_held_in_the_metric_of_the_data(&fg_general_f64_8, exponential);
+    bounds_are_held_in_the_metric_of_the_data(&fg_general_f64_32, exponential);
     refusals_change_nothing(&fg_exponential_f64_3);
     refusals_change_nothing(&fg_general_f64_8);
     a_saved_estimator_goes_on(&fg_subspace_f64_3);

@@ -36,6 +36,29 @@ template <class Work> void is_refused(int32_t code, const char *word, Work work)
 
 fg::Settings usual() { return fg::Settings(2).forgetting_factor(0.98).initial_covariance(1e4); }
 
+void in_time_and_within_bounds() {
+    auto made = [] { return fg::Estimator<double>(usual(), &fg_exponential_f64_2); };
+    fg::Estimator<double> plain = made(), timed = made();
+    for (int k = 0; k < 20; ++k) {
+        std::vector<double> phi = {1, std::sin(k)};
+        plain.update(phi, 3 - phi[1]);
+        timed.update_after(1, phi, 3 - phi[1], 1);
+    }
+    CHECK(plain.to_bytes() == timed.to_bytes());
+    auto report = timed.update_after(2, {1.0, 0.5}, 3.0);
+    CHECK(std::abs(report.forgetting_factor - 0.98 * 0.98) < 1e-15);
+    auto inside = plain.bounded({2.0, -0.5}, {});
+    CHECK(inside[1] == -0.5 && inside[0] >= 2);
+    CHECK(plain.bounded({}, {}) == plain.theta());
+    plain.set_theta(inside);
+    CHECK(plain.theta() == inside);
+    is_refused(FG_ERROR_LENGTH, "bounds", [&] { plain.bounded({1.0}, {}); });
+    is_refused(FG_ERROR_VALUE, "range", [&] { plain.bounded({1.0, 1.0}, {0.0, 2.0}); });
+    is_refused(FG_ERROR_VALUE, "range", [&] { timed.update_after(-1, {1.0, 0.5}, 3.0); });
+    is_refused(FG_ERROR_VALUE, "range", [&] { timed.update_after(1, {1.0, 0.5}, 3.0, 0); });
+    is_refused(FG_ERROR_LENGTH, "elements", [&] { plain.set_theta({1.0}); });
+}
+
 void saved() {
     fg::Estimator<double> estimator(usual().rule("subspace", {{"threshold", 1e-3}}));
     estimator.update({1.0, 2.0}, 3.0);
@@ -58,6 +81,7 @@ int main() {
     follows_a_line(fg::Estimator<double>(usual().rule("exponential").rate("constant")
                                              .gate("open").weighting("equal").initial_theta({1, 1})));
     saved();
+    in_time_and_within_bounds();
     fg::Estimator<double> monitored(usual().monitor());
     monitored.update({1.0, 2.0}, 3.0);
     CHECK(monitored.health().samples == 1);

@@ -18,6 +18,10 @@ LIBRARY = load()
 N = 3
 COMPACT = ["none", "exponential", "subspace", "directional", "random_walk"]
 DTYPES = ["float32", "float64"]
+# P of a compact estimator is summed in another order than Python's; of float32, and relative to P₀
+ROUNDING = 1e-4
+# an elimination of up to 20 equations, of which P has a condition of about 1e6
+SOLVED = 1e-9
 # what a choice needs that has no default
 NEEDED = {"component": {"blocks": [1, 2], "factors": [0.9, 0.99]}}
 
@@ -70,6 +74,74 @@ def test_compact(rule: str, n: int, dtype: str) -> None:
     """Every rule and every size that is compiled as a compact estimator."""
     rls = fg.RLS(n, rule=rule, initial_covariance=50.0, dtype=dtype)
     check_both_ways(rls, rule, dtype, n)
+
+
+def check_circumstances(estimator: fg.RLS, rule: str | None, dtype: str, n: int = N) -> None:
+    """Samples after times of their own and of variances of their own: the same bytes after each."""
+    phi, y = samples(dtype, 3, 150, n)
+    random = np.random.default_rng(4)
+    gamma = np.exp(random.normal(size=150)).astype(dtype)
+    elapsed = random.choice(np.array([0, 0.25, 1, 3, 2000], dtype), size=150)
+    moved = Estimator(LIBRARY, rule, dtype, n).load(estimator.to_bytes())
+    for k in range(150):
+        known = None if k % 3 == 0 else float(gamma[k])
+        time = 1.0 if k % 4 == 0 else float(elapsed[k])
+        estimator.update(phi[k], y[k], known, elapsed=time)
+        moved.update_after(time, phi[k], y[k], known)
+        assert moved.to_bytes() == estimator.to_bytes(), (k, time, known)
+
+
+@pytest.mark.parametrize("dtype", DTYPES)
+@pytest.mark.parametrize("n", [1, 3, 8])
+@pytest.mark.parametrize("rule", COMPACT)
+def test_circumstances(rule: str, n: int, dtype: str) -> None:
+    """Time and the variance of the noise, compact and general."""
+    settings = {"initial_covariance": 50.0, "dtype": dtype}
+    check_circumstances(fg.RLS(n, rule=rule, **settings), rule, dtype, n)
+    check_circumstances(fg.RLS(n, rule=rule, monitor=True, **settings), None, dtype, n)
+
+
+@pytest.mark.parametrize("dtype", DTYPES)
+def test_circumstances_of_the_default(dtype: str) -> None:
+    """A walk with a bound, compact; and the same in units of the data, general."""
+    rule = fg.rule("random_walk", process_noise=3e-3, bound=1e3)
+    rls = fg.RLS(4, rule=rule, initial_covariance=50.0, dtype=dtype)
+    check_circumstances(rls, "random_walk", dtype, 4)
+    check_circumstances(fg.RLS(4, dtype=dtype), None, dtype, 4)
+
+
+@pytest.mark.parametrize("dtype", DTYPES)
+@pytest.mark.parametrize(
+    ("rule", "n"), [("subspace", 3), ("exponential", 8), (None, 4), (None, 20)]
+)
+def test_bounds(rule: str | None, n: int, dtype: str) -> None:
+    """The estimate within bounds is Python's, and both go on from it alike."""
+    if n > 8 and dtype == "float32":
+        pytest.skip("no kind of float has so many parameters")
+    initial = {} if rule is None else {"initial_covariance": 50.0}
+    rls = fg.RLS(n, rule=rule, dtype=dtype, **initial)
+    moved = Estimator(LIBRARY, rule, dtype, n).load(rls.to_bytes())
+    phi, y = samples(dtype, 5, 100, n)
+    lower = np.full(n, -np.inf)
+    upper = np.full(n, np.inf)
+    lower[0], upper[-1] = 1.25, 0.5
+    active = 0
+    for k in range(100):
+        rls.update(phi[k], y[k])
+        moved.update(phi[k : k + 1], y[k : k + 1])
+        covariance = moved.covariance()
+        assert np.allclose(covariance, rls.covariance, rtol=ROUNDING, atol=ROUNDING)
+        wide = (np.asarray(x, dtype=np.float64) for x in (rls.theta, covariance))
+        expected = fg.bounded(*wide, lower, upper).astype(dtype)
+        active += int(not np.array_equal(expected, rls.theta))
+        held = moved.bounded(lower, upper)
+        assert np.allclose(held, expected, rtol=SOLVED, atol=0), k
+        assert np.all((lower <= held) & (held <= upper))
+        if k % 10 == 0:
+            rls.theta = expected
+            moved.set_theta(expected)
+            assert moved.to_bytes() == rls.to_bytes()
+    assert active > 50
 
 
 @pytest.mark.parametrize("dtype", DTYPES)

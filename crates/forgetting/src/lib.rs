@@ -54,7 +54,7 @@ pub mod weightings;
 pub use compact::Compact;
 #[cfg(feature = "alloc")]
 pub use covariance::bounded;
-pub use covariance::{Factor, Prior, DIFFUSE};
+pub use covariance::{bounded_in, bounded_room, Factor, Prior, DIFFUSE};
 pub use error::Error;
 #[cfg(feature = "alloc")]
 pub use estimator::AnyEstimator;

@@ -9,7 +9,7 @@ use forgetting::rules::{Directional, Exponential, NoForgetting, Rule, Subspace};
 use forgetting::weightings::AnyWeighting;
 use forgetting::{
     AnyEstimator, Compact, Constant, Dynamic, Equal, Error, Estimator, Fixed, Forgetting, Kernels,
-    Memory, Named, Packed, Prior, Real, Size, UpTo,
+    Memory, Named, Noise, Packed, Prior, Real, Size, UpTo,
 };
 
 const VARIANCE: f64 = 50.0;
@@ -33,6 +33,18 @@ impl Numbers {
         }
         (phi, T::from_f64(self.next() + f64::from(k as u32 % 90) / 30.0))
     }
+
+    /// How long after the last one a sample comes, and Γ if it is known; most come as they come.
+    fn circumstances<T: Kernels>(&mut self, k: usize) -> (T, Option<T>) {
+        let times = [0.0, 0.5, 1.0, 2.0, 40.0, 1e-30, 1e4];
+        let elapsed = if k % 3 == 1 { times[k % times.len()] } else { 1.0 };
+        let gamma = (k % 4 == 2).then(|| T::from_f64(10f64.powf(4.0 * self.next())));
+        (T::from_f64(elapsed), gamma)
+    }
+}
+
+fn noise<T>(gamma: Option<T>) -> Noise<'static, T> {
+    gamma.map_or(Noise::Unit, Noise::Scalar)
 }
 
 fn estimator<M: Memory>(rule: &str, memory: M) -> Named<M> {
@@ -67,13 +79,19 @@ where
     let start = bytes(|put| compact.save(rule, put));
     for k in 0..300 {
         let (phi, y) = numbers.sample::<T, N>(k);
-        let (outcome, update) = (compact.update(&phi, y), whole.update(&phi, &[y]));
+        let (elapsed, gamma) = numbers.circumstances::<T>(k);
+        let outcome = if elapsed == T::ONE && gamma.is_none() {
+            compact.update(&phi, y)
+        } else {
+            compact.update_after(elapsed, &phi, y, gamma)
+        };
+        let update = whole.update_after(elapsed, &phi, &[y], noise(gamma));
         let (outcome, update) = (outcome.unwrap(), update.unwrap());
         assert_eq!(outcome.error, update.error[0], "{rule} {N} {k}");
         assert_eq!(outcome.leverage, update.leverage, "{rule} {N} {k}");
         assert_eq!(outcome.used, update.skipped.is_none(), "{rule} {N} {k}");
         assert_eq!(outcome.windup, update.windup, "{rule} {N} {k}");
-        part.update(&phi, &[y]).unwrap();
+        part.update_after(elapsed, &phi, &[y], noise(gamma)).unwrap();
         if k % 60 == 0 {
             let saved = whole.to_bytes().unwrap();
             assert_eq!(bytes(|put| compact.save(rule, put)), saved, "{rule} {N} {k}");
@@ -133,6 +151,61 @@ fn what_is_refused_changes_nothing() {
     ] {
         assert!(compact.update(&phi, y).is_err(), "{phi:?} {y}");
         assert_eq!(bytes(|put| compact.save("exponential", put)), before);
+    }
+}
+
+#[test]
+fn circumstances_out_of_range_are_refused_and_change_nothing() {
+    let mut compact = two(0.5);
+    compact.update(&[1.0, 2.0], 3.0).unwrap();
+    let before = bytes(|put| compact.save("exponential", put));
+    for (elapsed, gamma, parameter) in [
+        (-1.0, None, "elapsed"),
+        (f32::NAN, None, "elapsed"),
+        (f32::INFINITY, None, "elapsed"),
+        (1.0, Some(0.0), "gamma"),
+        (1.0, Some(-1.0), "gamma"),
+        (1.0, Some(f32::NAN), "gamma"),
+        (1.0, Some(f32::INFINITY), "gamma"),
+    ] {
+        let refused = compact.update_after(elapsed, &[1.0, 1.0], 1.0, gamma);
+        assert!(
+            matches!(refused, Err(Error::Value { parameter: named, .. }) if named == parameter),
+            "{elapsed} {gamma:?}"
+        );
+        assert_eq!(bytes(|put| compact.save("exponential", put)), before);
+    }
+    for (phi, y, gamma) in
+        [([f32::NAN, 1.0], 1.0, 4.0), ([1.0, 1.0], 1e30, 4.0), ([1e3, 1.0], 1.0, 1e-35)]
+    {
+        assert!(compact.update_after(1.0, &phi, y, Some(gamma)).is_err(), "{phi:?} {y} {gamma}");
+        assert_eq!(bytes(|put| compact.save("exponential", put)), before);
+    }
+}
+
+#[test]
+fn theta_can_be_put() {
+    let (mut compact, memory) = (two(0.9), Dynamic::<f32>::new(2, 1, 1).unwrap());
+    let mut whole = estimator("exponential", memory);
+    let mut numbers = Numbers(1);
+    let mut compact_of_whole = |whole: &AnyEstimator<f32>| {
+        compact = Two::from_bytes("exponential", &whole.to_bytes().unwrap()).unwrap();
+        compact.clone()
+    };
+    for k in 0..20 {
+        let (phi, y) = numbers.sample::<f32, 2>(k);
+        whole.update(&phi, &[y]).unwrap();
+        let mut moved = compact_of_whole(&whole);
+        whole.set_theta(&[0.5, y]).unwrap();
+        moved.set_theta(&[0.5, y]).unwrap();
+        assert_eq!(bytes(|put| moved.save("exponential", put)), whole.to_bytes().unwrap());
+        for wrong in [[f32::NAN, 0.0], [0.0, f32::INFINITY], [1e30, 0.0]] {
+            assert!(matches!(
+                moved.set_theta(&wrong),
+                Err(Error::Value { parameter: "theta", .. })
+            ));
+            assert_eq!(moved.theta(), &[0.5, y]);
+        }
     }
 }
 

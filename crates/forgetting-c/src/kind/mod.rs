@@ -1,7 +1,11 @@
 //! A type of estimator as a table of functions, so that C needs to know no type.
 
+mod after;
+mod bounds;
 mod saving;
 
+pub(crate) use after::update_after;
+pub(crate) use bounds::bounded;
 #[cfg(feature = "general")]
 pub use saving::Whole;
 pub use saving::{Saving, View};
@@ -14,6 +18,7 @@ use crate::settings::Settings;
 use core::mem::{align_of, size_of};
 use core::ptr::NonNull;
 use core::slice::{from_raw_parts, from_raw_parts_mut};
+use forgetting::compact::Given;
 
 /// Says that memory holds an estimator.
 const MARK: u32 = 0x4647_524C;
@@ -52,12 +57,14 @@ pub struct Kind {
     pub(crate) reset: unsafe fn(*mut Head),
     pub(crate) samples: unsafe fn(*mut Head) -> u64,
     pub(crate) health: unsafe fn(*mut Head) -> Option<Health>,
-    /// φ, y, and where to write the report
-    pub(crate) update: unsafe fn(*mut Head, *const u8, *const u8, *mut u8) -> Outcome,
+    /// φ, y, where to write the report, and null or what is given of a whitened sample
+    pub(crate) update: unsafe fn(*mut Head, *const u8, *const u8, *mut u8, *const u8) -> Outcome,
     /// φ, and where to write φθ
     pub(crate) predict: unsafe fn(*mut Head, *const u8, *mut u8),
     /// where to write n numbers
     pub(crate) theta: unsafe fn(*mut Head, *mut u8),
+    /// θ, n numbers
+    pub(crate) set_theta: unsafe fn(*mut Head, *const u8) -> Outcome,
     /// where to write n x n numbers
     pub(crate) covariance: unsafe fn(*mut Head, *mut u8),
 }
@@ -78,6 +85,7 @@ impl Kind {
             update: update::<E>,
             predict: predict::<E>,
             theta: theta::<E>,
+            set_theta: set_theta::<E>,
             covariance: covariance::<E>,
         }
     }
@@ -178,12 +186,14 @@ unsafe fn update<E: Model>(
     phi: *const u8,
     y: *const u8,
     report: *mut u8,
+    given: *const u8,
 ) -> Outcome {
     // SAFETY: its kind says so, and the caller has checked the pointers.
     unsafe {
         let estimator = at::<E>(head);
         let phi = from_raw_parts(phi.cast::<E::Real>(), estimator.parameters());
-        let outcome = estimator.update(phi, y.cast::<E::Real>().read())?;
+        let given = given.cast::<Given<E::Real>>().as_ref();
+        let outcome = estimator.update(phi, y.cast::<E::Real>().read(), given)?;
         if !report.is_null() {
             report.cast::<Report<E::Real>>().write(outcome);
         }
@@ -205,6 +215,14 @@ unsafe fn theta<E: Model>(head: *mut Head, theta: *mut u8) {
     unsafe {
         let own = at::<E>(head).theta();
         theta.cast::<E::Real>().copy_from_nonoverlapping(own.as_ptr(), own.len());
+    }
+}
+
+unsafe fn set_theta<E: Model>(head: *mut Head, theta: *const u8) -> Outcome {
+    // SAFETY: its kind says so, and the caller has checked the pointers.
+    unsafe {
+        let estimator = at::<E>(head);
+        estimator.set_theta(from_raw_parts(theta.cast::<E::Real>(), estimator.parameters()))
     }
 }
 

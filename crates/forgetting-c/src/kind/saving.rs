@@ -1,13 +1,16 @@
 //! How an estimator is saved and loaded.
 //!
 //! What this takes is linked with [`fg_save`](crate::fg_save) and [`fg_load`](crate::fg_load) only: the
-//! tables of compact kinds hold no more than how to look at an estimator.
+//! tables of compact kinds hold no more than how to look at an estimator. So it is with
+//! [time](super::after).
 
 use super::{at, put, Head, Held, Kind, Outcome};
 use crate::model::{Compact, Saves};
+use crate::report::Report;
 use core::mem::{size_of, MaybeUninit};
+use core::slice::from_raw_parts;
 use forgetting::choice::Values;
-use forgetting::compact::{load, save, Saved};
+use forgetting::compact::{load, save, Pace, Saved};
 use forgetting::{Error, Kernels};
 
 /// Takes bytes, one piece after the other.
@@ -30,6 +33,7 @@ pub struct View<T: Kernels> {
     rule: &'static str,
     make: unsafe fn(*mut Head, &'static Kind, &dyn Values, T) -> Result<(), Error>,
     at: unsafe fn(*mut Head) -> *mut dyn Saved<T>,
+    pub(super) pace: unsafe fn(*mut Head) -> Pace<T>,
 }
 
 /// How an estimator saves and loads itself.
@@ -37,6 +41,9 @@ pub struct View<T: Kernels> {
 pub struct Whole {
     save: unsafe fn(*mut Head, &mut Put<'_>) -> Outcome,
     load: unsafe fn(*mut Head, &'static Kind, &[u8]) -> Outcome,
+    /// time, φ, y, Γ or null, and where to write the report
+    pub(super) update_after:
+        unsafe fn(*mut Head, *const u8, *const u8, *const u8, *const u8, *mut u8) -> Outcome,
 }
 
 /// Words of eight bytes that hold any compact estimator.
@@ -46,7 +53,7 @@ impl<T: Kernels> View<T> {
     /// That of `E`.
     pub(crate) const fn of<E: Compact<Real = T>>() -> Self {
         assert!(size_of::<Held<E>>() <= 8 * MOST);
-        Self { rule: E::RULE, make: make::<E>, at: look_at::<E> }
+        Self { rule: E::RULE, make: make::<E>, at: look_at::<E>, pace: pace::<E> }
     }
 
     /// Loads into memory of its own first: what was there before stays if the bytes are refused.
@@ -69,7 +76,8 @@ impl<T: Kernels> View<T> {
 impl Whole {
     /// That of `E`.
     pub(crate) const fn of<E: Saves>() -> Self {
-        Self { save: save_whole::<E>, load: load_whole::<E> }
+        let update_after = update_whole_after::<E>;
+        Self { save: save_whole::<E>, load: load_whole::<E>, update_after }
     }
 }
 
@@ -126,6 +134,33 @@ unsafe fn make<E: Compact>(
 unsafe fn look_at<E: Compact>(head: *mut Head) -> *mut dyn Saved<E::Real> {
     // SAFETY: the caller says that there is one.
     unsafe { at::<E>(head) }.saved()
+}
+
+unsafe fn pace<E: Compact>(head: *mut Head) -> Pace<E::Real> {
+    // SAFETY: the caller says that there is one.
+    unsafe { at::<E>(head) }.pace()
+}
+
+unsafe fn update_whole_after<E: Saves>(
+    head: *mut Head,
+    elapsed: *const u8,
+    phi: *const u8,
+    y: *const u8,
+    gamma: *const u8,
+    report: *mut u8,
+) -> Outcome {
+    // SAFETY: its kind says so, and the caller has checked the pointers.
+    unsafe {
+        let estimator = at::<E>(head);
+        let phi = from_raw_parts(phi.cast::<E::Real>(), estimator.parameters());
+        let number = |place: *const u8| place.cast::<E::Real>().read();
+        let gamma = gamma.cast::<E::Real>().as_ref().copied();
+        let outcome = estimator.update_after(number(elapsed), phi, number(y), gamma)?;
+        if !report.is_null() {
+            report.cast::<Report<E::Real>>().write(outcome);
+        }
+    }
+    Ok(())
 }
 
 unsafe fn save_whole<E: Saves>(head: *mut Head, put: &mut Put<'_>) -> Outcome {

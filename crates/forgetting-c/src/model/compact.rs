@@ -6,7 +6,7 @@ use crate::number::Number;
 use crate::report::{Health, Report};
 use crate::settings::Settings;
 use forgetting::choice::{About, Values};
-use forgetting::compact::Saved;
+use forgetting::compact::{Given, Pace, Saved};
 use forgetting::{Compact, Error, Fixed, Forgetting, Packed, Size};
 
 /// A rule with its name.
@@ -94,9 +94,9 @@ where
         None
     }
 
-    fn update(&mut self, phi: &[T], y: T) -> Result<Report<T>, Why> {
+    fn update(&mut self, phi: &[T], y: T, given: Option<&Given<T>>) -> Result<Report<T>, Why> {
         let phi = phi.first_chunk::<N>().ok_or(Code::Length)?;
-        let outcome = self.0.update(phi, y)?;
+        let outcome = self.0.take(phi, y, given)?;
         Ok(Report {
             error: outcome.error,
             leverage: outcome.leverage,
@@ -115,6 +115,11 @@ where
 
     fn theta(&self) -> &[T] {
         self.0.theta()
+    }
+
+    fn set_theta(&mut self, theta: &[T]) -> Result<(), Why> {
+        let theta = theta.first_chunk::<N>().ok_or(Code::Length)?;
+        Ok(self.0.set_theta(theta)?)
     }
 
     fn covariance(&mut self, covariance: &mut [T]) {
@@ -137,5 +142,9 @@ where
 
     fn saved(&mut self) -> &mut dyn Saved<T> {
         &mut self.0
+    }
+
+    fn pace(&self) -> Pace<T> {
+        self.0.pace()
     }
 }

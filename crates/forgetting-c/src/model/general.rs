@@ -6,12 +6,13 @@ use crate::number::Number;
 use crate::report::{Health, Report};
 use crate::settings::{Choice, Settings};
 use forgetting::choice::{About, Defaults, Kind, Value, Values};
+use forgetting::compact::Given;
 use forgetting::defaults::{PROCESS_NOISE, RULE, RULE_OF_DATA};
 use forgetting::gates::AnyGate;
 use forgetting::rates::AnyRate;
 use forgetting::rules::Rule;
 use forgetting::weightings::AnyWeighting;
-use forgetting::{Error, Estimator, Memory, Named, Packed, Prior, Size, UpTo, DIFFUSE};
+use forgetting::{Error, Estimator, Memory, Named, Noise, Packed, Prior, Size, UpTo, DIFFUSE};
 
 /// Samples that a rate can look back over.
 const WINDOW: usize = 256;
@@ -152,18 +153,8 @@ where
         self.0.health().map(Health::from)
     }
 
-    fn update(&mut self, phi: &[T], y: T) -> Result<Report<T>, Why> {
-        let update = self.0.update(phi, &[y])?;
-        Ok(Report {
-            error: update.error.first().copied().unwrap_or(T::ZERO),
-            leverage: update.leverage,
-            forgetting_factor: update.forgetting_factor,
-            weight: update.weight,
-            used: u8::from(update.skipped.is_none()),
-            windup: u8::from(update.windup),
-            gate: update.gate.code(),
-            reserved: 0,
-        })
+    fn update(&mut self, phi: &[T], y: T, _: Option<&Given<T>>) -> Result<Report<T>, Why> {
+        Ok(self.0.update(phi, &[y])?.into())
     }
 
     fn predict(&self, phi: &[T]) -> T {
@@ -177,6 +168,10 @@ where
         self.0.theta()
     }
 
+    fn set_theta(&mut self, theta: &[T]) -> Result<(), Why> {
+        Ok(self.0.set_theta(theta)?)
+    }
+
     fn covariance(&mut self, covariance: &mut [T]) {
         self.0.express(self.0.factor()).reconstruct(covariance);
     }
@@ -186,6 +181,17 @@ impl<T: Float, const N: usize> Saves for General<T, N>
 where
     Size<N>: Packed<T>,
 {
+    fn update_after(
+        &mut self,
+        elapsed: T,
+        phi: &[T],
+        y: T,
+        gamma: Option<T>,
+    ) -> Result<Report<T>, Why> {
+        let noise = gamma.map_or(Noise::Unit, Noise::Scalar);
+        Ok(self.0.update_after(elapsed, phi, &[y], noise)?.into())
+    }
+
     fn load(bytes: &[u8]) -> Result<Self, Why> {
         Ok(Self(Named::from_bytes(bytes)?))
     }

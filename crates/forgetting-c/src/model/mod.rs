@@ -9,7 +9,7 @@ use crate::number::Number;
 use crate::report::{Health, Report};
 use crate::settings::Settings;
 use forgetting::choice::Values;
-use forgetting::compact::Saved;
+use forgetting::compact::{Given, Pace, Saved};
 use forgetting::{Error, Kernels};
 
 /// An estimator of one row and one target.
@@ -34,21 +34,42 @@ pub trait Model: Sized + 'static {
     fn samples(&self) -> u64;
     /// What its monitor has found, if there is one.
     fn health(&self) -> Option<Health>;
-    /// Takes a sample of n numbers `phi`.
+    /// Takes a sample of n numbers `phi`; of a compact estimator it may be one of which this is `given`.
     ///
     /// # Errors
     /// What is refused; nothing has changed.
-    fn update(&mut self, phi: &[Self::Real], y: Self::Real) -> Result<Report<Self::Real>, Why>;
+    fn update(
+        &mut self,
+        phi: &[Self::Real],
+        y: Self::Real,
+        given: Option<&Given<Self::Real>>,
+    ) -> Result<Report<Self::Real>, Why>;
     /// φθ of n numbers `phi`
     fn predict(&self, phi: &[Self::Real]) -> Self::Real;
     /// θ, n numbers
     fn theta(&self) -> &[Self::Real];
+    /// Goes on from θ = `theta`, n numbers.
+    ///
+    /// # Errors
+    /// What is refused; nothing has changed.
+    fn set_theta(&mut self, theta: &[Self::Real]) -> Result<(), Why>;
     /// P, written to n x n numbers.
     fn covariance(&mut self, covariance: &mut [Self::Real]);
 }
 
-/// One that saves and loads itself.
+/// One that saves and loads itself, and knows what time and noise do to it.
 pub trait Saves: Model {
+    /// Takes a sample `elapsed` after the last one, of which Γ is `gamma` if it is known.
+    ///
+    /// # Errors
+    /// What is refused; nothing has changed.
+    fn update_after(
+        &mut self,
+        elapsed: Self::Real,
+        phi: &[Self::Real],
+        y: Self::Real,
+        gamma: Option<Self::Real>,
+    ) -> Result<Report<Self::Real>, Why>;
     /// The estimator that was saved as `bytes`.
     ///
     /// # Errors
@@ -73,6 +94,8 @@ pub trait Compact: Model {
     fn of_values(values: &dyn Values, lambda: Self::Real) -> Result<Self, Error>;
     /// What is to be saved.
     fn saved(&mut self) -> &mut dyn Saved<Self::Real>;
+    /// What time does to it.
+    fn pace(&self) -> Pace<Self::Real>;
 }
 
 /// The type of number that C calls so.

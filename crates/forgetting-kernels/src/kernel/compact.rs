@@ -51,13 +51,21 @@ pub struct Compact<'a, T, const N: usize> {
 }
 
 impl<T: Real, const N: usize> Compact<'_, T, N> {
-    /// Forgets, measures and corrects. Nothing is forgotten where P would leave the range of the number
-    /// type, and nothing has changed, without an outcome, where the error or ‖φ‖² is beyond it.
+    /// Forgets, measures and corrects. A sample whitened elsewhere comes with its whitened error, which
+    /// is then what is reported; `y` is not read.
+    ///
+    /// Nothing is forgotten where P would leave the range of the number type, and nothing has changed,
+    /// without an outcome, where the error or ‖φ‖² is beyond it.
     // always, so that what calls it with one form compiles that one only
     #[inline(always)]
-    pub fn take(&mut self, form: Form<T>, phi: &[T; N], y: T) -> Option<Outcome<T>> {
+    pub fn take(
+        &mut self,
+        form: Form<T>,
+        (phi, y): (&[T; N], T),
+        whitened: Option<T>,
+    ) -> Option<Outcome<T>> {
         let (product, squares) = few_products::<T, T, N>(phi, self.theta);
-        let error = y - product;
+        let error = whitened.unwrap_or(y - product);
         if !accepts(error, squares) {
             return None;
         }

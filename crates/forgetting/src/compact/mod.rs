@@ -6,9 +6,11 @@
 //! the diagonal of U, a bound of P's trace and a count: (n² + 5n)/2 + 3 numbers and eight bytes, beside
 //! the parameters of the rule. There is no monitor, no gate and no weighting.
 
+mod after;
 mod saved;
 mod walk;
 
+pub use after::{Given, Pace};
 pub use saved::{load, save, Saved};
 pub use walk::Walk;
 
@@ -17,7 +19,7 @@ use crate::error::Error;
 use crate::memory::{Fixed, Packed, Size};
 use crate::rates::{Constant, Rate};
 use crate::rules::Forgetting;
-use crate::sample::{blame, out_of_range};
+use crate::sample::{blame, check_theta, out_of_range};
 use forgetting_kernels::kernel::compact::Compact as Kernel;
 use forgetting_kernels::kernel::form::Form;
 use forgetting_kernels::kernel::layout::FEW;
@@ -105,16 +107,15 @@ where
             theta: initial_theta,
             samples: 0,
         };
-        estimator.form()?;
+        estimator.form(estimator.forgetting_factor, T::ONE)?;
         estimator.reset();
         Ok(estimator)
     }
 
-    /// How every sample changes P.
+    /// How a sample changes P with this λ, so many steps of a walk after the last one.
     #[inline(always)]
-    fn form(&self) -> Result<Form<T>, Error> {
-        let lambda = self.forgetting_factor.max(T::EPSILON);
-        let form = if N <= FEW { self.rule.form(lambda, T::ONE) } else { None };
+    fn form(&self, lambda: T, steps: T) -> Result<Form<T>, Error> {
+        let form = if N <= FEW { self.rule.form(lambda.max(T::EPSILON), steps) } else { None };
         form.ok_or(Error::Unsupported {
             reason: "this rule with these parameters is not one for compact estimators",
         })
@@ -124,6 +125,15 @@ where
     fn kernel(&mut self) -> Kernel<'_, T, N> {
         let Self { triangle, diagonal, bound, theta, .. } = self;
         Kernel { triangle: triangle.as_mut(), diagonal, bound, theta }
+    }
+
+    /// What time does to it.
+    pub fn pace(&self) -> Pace<T> {
+        let share = match self.form(self.forgetting_factor, T::ONE) {
+            Ok(Form::Walk { noise, per_bound }) => noise * per_bound,
+            _ => T::ZERO,
+        };
+        Pace { factor: self.forgetting_factor, share }
     }
 
     /// Back to the prior, as if no sample had been seen.
@@ -141,8 +151,27 @@ where
     /// [`Error`] names what was wrong; the estimator is as it was, bit for bit.
     #[inline(always)]
     pub fn update(&mut self, phi: &[T; N], y: T) -> Result<Outcome<T>, Error> {
-        let form = self.form()?;
-        let mut outcome = self.kernel().take(form, phi, y).ok_or_else(|| self.refuse(phi, y))?;
+        self.take(phi, y, None)
+    }
+
+    /// The same of a sample as it is, or of one of which this is `given`: `phi` is then whitened, and so
+    /// is the error of the outcome.
+    ///
+    /// # Errors
+    /// Those of [`Compact::update`].
+    #[inline(always)]
+    pub fn take(
+        &mut self,
+        phi: &[T; N],
+        y: T,
+        given: Option<&Given<T>>,
+    ) -> Result<Outcome<T>, Error> {
+        let (lambda, steps) =
+            given.map_or((self.forgetting_factor, T::ONE), |given| (given.factor, given.steps));
+        let form = self.form(lambda, steps)?;
+        let error = given.map(|given| given.error);
+        let taken = self.kernel().take(form, (phi, y), error);
+        let mut outcome = taken.ok_or_else(|| self.refuse((phi, y), error))?;
         if outcome.used {
             self.samples = self.samples.saturating_add(1);
         }
@@ -152,13 +181,23 @@ where
 
     /// What was wrong with a sample.
     #[cold]
-    fn refuse(&self, phi: &[T; N], y: T) -> Error {
-        let largest = (y - self.predict(phi)).abs();
+    fn refuse(&self, (phi, y): (&[T; N], T), whitened: Option<T>) -> Error {
+        let largest = whitened.unwrap_or(y - self.predict(phi)).abs();
         if largest <= T::CEILING {
             out_of_range("phi (its squared length)", few_products::<T, T, N>(phi, phi).0)
         } else {
             blame(phi, &[y], largest)
         }
+    }
+
+    /// Goes on from θ = `theta`. P stays as it is.
+    ///
+    /// # Errors
+    /// [`Error`] names `theta` unless its numbers are within the range; nothing has changed.
+    pub fn set_theta(&mut self, theta: &[T; N]) -> Result<(), Error> {
+        check_theta(theta)?;
+        self.theta = *theta;
+        Ok(())
     }
 
     /// φθ

@@ -54,12 +54,17 @@ impl<M: Memory> Forgetting<M> for Walk<M> {
         self.bound.is_some()
     }
 
+    /// So many steps after the last sample: see [`Pace`](super::Pace).
     #[inline]
-    fn form(&self, _: M::Real, elapsed: M::Real) -> Option<Form<M::Real>> {
-        let noise = self.process_noise;
+    fn form(&self, _: M::Real, steps: M::Real) -> Option<Form<M::Real>> {
+        let noise = self.process_noise * steps;
         let walks = noise >= M::Real::FLOOR || (noise > M::Real::ZERO && self.bound.is_none());
         let per_bound = self.bound.map_or(M::Real::ZERO, |bound| M::Real::ONE / bound);
-        (walks && elapsed == M::Real::ONE).then_some(Form::Walk { noise, per_bound })
+        if walks {
+            return Some(Form::Walk { noise, per_bound });
+        }
+        // no time has passed, or too little for numbers to show
+        (steps < M::Real::ONE).then_some(Form::Scale { growth: M::Real::ONE })
     }
 
     fn forget(&self, (): &mut (), _: Step<'_, '_, M>) -> Result<Forgotten, Error> {

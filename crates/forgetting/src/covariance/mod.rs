@@ -5,7 +5,6 @@
 //! [`Real::FLOOR`]: P stays positive definite whatever is asked of it.
 
 mod blocks;
-#[cfg(feature = "alloc")]
 mod bounded;
 pub(crate) mod dense;
 mod grow;
@@ -14,7 +13,9 @@ mod prior;
 pub mod spectrum;
 
 #[cfg(feature = "alloc")]
+#[cfg(feature = "alloc")]
 pub use bounded::bounded;
+pub use bounded::{bounded_in, bounded_room};
 pub use prior::{Prior, DIFFUSE};
 
 use crate::error::Error;

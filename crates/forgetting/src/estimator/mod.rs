@@ -25,7 +25,7 @@ use crate::gates::{AnyGate, Open};
 use crate::memory::Memory;
 use crate::rates::Rate;
 use crate::rules::Forgetting;
-use crate::sample::{Noise, Update, Whitened};
+use crate::sample::{check_theta, Noise, Update, Whitened};
 use crate::weightings::Weighting;
 #[cfg(feature = "alloc")]
 pub use any::AnyEstimator;
@@ -133,12 +133,7 @@ where
     pub fn set_theta(&mut self, theta: &[M::Real]) -> Result<(), Error> {
         let own = self.recursion.state.theta.as_mut();
         Error::check_length("theta", theta.len(), own.len())?;
-        for (i, x) in theta.iter().enumerate() {
-            if !(x.abs() < M::Real::CEILING) {
-                let allowed = "finite, and less than the root of the largest number";
-                return Err(Error::value("theta", x.to_f64(), allowed).at(i));
-            }
-        }
+        check_theta(theta)?;
         own.copy_from_slice(theta);
         if let Some(measured) = &mut self.measured {
             measured.set_theta(own);

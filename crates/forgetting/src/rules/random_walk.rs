@@ -203,14 +203,7 @@ impl<M: Memory> RandomWalk<M> {
     /// P is drawn towards it as in as many steps.
     #[inline]
     fn steps(&self, elapsed: M::Real) -> M::Real {
-        let share = (self.largest * self.per_bound).to_f64();
-        if elapsed == M::Real::ONE || !(share > 0.0) {
-            return elapsed;
-        }
-        let kept = libm::exp(elapsed.to_f64() * libm::log1p(-share));
-        // so much that rounding cannot make what is left of P negative
-        let least = ROUNDING * M::Real::EPSILON.to_f64();
-        M::Real::from_f64((1.0 - kept.max(least)) / share)
+        steps_after((self.largest * self.per_bound).to_f64(), elapsed)
     }
 
     /// P ← P + c·wᵀw for row `j` of the root.
@@ -234,6 +227,18 @@ impl<M: Memory> RandomWalk<M> {
         self.add(j, turns.samples, step.factor, step.work);
         Ok(())
     }
+}
+
+/// The same where Q is this share of the bound, κ = 1 − share; 0 without a bound.
+#[inline]
+pub(crate) fn steps_after<T: Real>(share: f64, elapsed: T) -> T {
+    if elapsed == T::ONE || !(share > 0.0) {
+        return elapsed;
+    }
+    let kept = libm::exp(elapsed.to_f64() * libm::log1p(-share));
+    // so much that rounding cannot make what is left of P negative
+    let least = ROUNDING * T::EPSILON.to_f64();
+    T::from_f64((1.0 - kept.max(least)) / share)
 }
 
 impl<M: Memory> Forgetting<M> for RandomWalk<M> {

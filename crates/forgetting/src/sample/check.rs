@@ -45,6 +45,20 @@ impl<M: Memory> SampleBuffers<M> {
     }
 }
 
+/// Refuses parameters that are not finite, or too large to compute with.
+///
+/// # Errors
+/// [`Error::Value`] names `theta`.
+pub(crate) fn check_theta<T: Real>(theta: &[T]) -> Result<(), Error> {
+    for (i, x) in theta.iter().enumerate() {
+        if !(x.abs() < T::CEILING) {
+            let allowed = "finite, and less than the root of the largest number";
+            return Err(Error::value("theta", x.to_f64(), allowed).at(i));
+        }
+    }
+    Ok(())
+}
+
 /// Which part of a sample with an innovation that is too large is to blame.
 #[cold]
 pub(crate) fn blame<T: Real>(phi: &[T], y: &[T], largest: T) -> Error {

@@ -39,6 +39,18 @@ impl<T: Real> Noise<'_, T> {
     }
 }
 
+/// Refuses what is not a variance.
+///
+/// # Errors
+/// [`Error::Value`] names `gamma`.
+#[inline]
+pub(crate) fn check_gamma<T: Real>(gamma: T) -> Result<(), Error> {
+    if gamma > T::ZERO && gamma.is_finite() {
+        return Ok(());
+    }
+    Err(Error::value("gamma", gamma.to_f64(), "positive and finite"))
+}
+
 /// Applies Γ = `noise`; a full one is left factored in `root`.
 #[inline]
 pub fn whiten<M: Memory>(
@@ -49,9 +61,7 @@ pub fn whiten<M: Memory>(
     match noise {
         Noise::Unit => Ok(()),
         Noise::Scalar(gamma) => {
-            if !(gamma > M::Real::ZERO && gamma.is_finite()) {
-                return Err(Error::value("gamma", gamma.to_f64(), "positive and finite"));
-            }
+            check_gamma(gamma)?;
             sample.scale(M::Real::ONE / gamma.sqrt());
             Ok(())
         }

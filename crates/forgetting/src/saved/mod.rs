@@ -35,6 +35,8 @@ mod bank;
 #[cfg(feature = "alloc")]
 mod model;
 mod read;
+#[cfg(feature = "serde")]
+mod serde;
 mod write;
 
 pub(crate) use read::Reader;

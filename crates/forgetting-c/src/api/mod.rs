@@ -1,11 +1,14 @@
 //! The functions that C calls. Each checks its pointers and asks the kind of the estimator.
 
+mod typed;
+
 use crate::code::{Code, Why};
 use crate::kind::{Head, Kind};
-use crate::number::Number;
-use crate::report::{Health, Report};
+use crate::report::Health;
 use crate::settings::Settings;
 use core::ffi::c_char;
+use core::slice::from_raw_parts;
+pub use typed::*;
 
 /// The version of the interface: it changes when a program must be compiled again.
 const ABI_VERSION: u32 = 1;
@@ -117,7 +120,7 @@ pub unsafe extern "C" fn fg_load(
                 return Err(Code::Null.into());
             }
             kind.check_memory(memory, size)?;
-            let bytes = core::slice::from_raw_parts(bytes, length);
+            let bytes = from_raw_parts(bytes, length);
             kind.saving.load(memory.cast(), kind, bytes)?;
             give(memory, estimator);
             Ok(())
@@ -217,114 +220,3 @@ pub unsafe extern "C" fn fg_health(estimator: *mut Estimator, health: *mut Healt
         }
     }
 }
-
-/// The kind of an estimator that computes with `number`, of n parameters, if `pointers` are not null.
-///
-/// # Safety
-/// `estimator` is null or points to memory for one.
-unsafe fn checked(
-    estimator: *mut Estimator,
-    number: Number,
-    n: usize,
-    pointers: &[bool],
-) -> Result<&'static Kind, Code> {
-    // SAFETY: as above.
-    let kind = unsafe { Head::kind(estimator)? };
-    if pointers.iter().any(|null| *null) {
-        Err(Code::Null)
-    } else if kind.number != number {
-        Err(Code::NumberType)
-    // SAFETY: it has a kind.
-    } else if unsafe { Head::parameters(estimator) } != n {
-        Err(Code::Length)
-    } else {
-        Ok(kind)
-    }
-}
-
-macro_rules! typed {
-    ($T:ty, $number:expr, $update:ident, $predict:ident, $theta:ident, $covariance:ident) => {
-        /// Takes a sample.
-        ///
-        /// # Safety
-        /// Each pointer is null or points to what it says.
-        #[no_mangle]
-        pub unsafe extern "C" fn $update(
-            estimator: *mut Estimator,
-            phi: *const $T,
-            n: usize,
-            y: $T,
-            report: *mut Report<$T>,
-        ) -> i32 {
-            // SAFETY: as above.
-            unsafe {
-                match checked(estimator, $number, n, &[phi.is_null()]) {
-                    Err(code) => code as i32,
-                    Ok(kind) => {
-                        let y = (&raw const y).cast();
-                        (kind.update)(estimator, phi.cast(), y, report.cast())
-                            .map_or_else(|why| why.code, |()| 0)
-                    }
-                }
-            }
-        }
-
-        /// φθ
-        ///
-        /// # Safety
-        /// Each pointer is null or points to what it says.
-        #[no_mangle]
-        pub unsafe extern "C" fn $predict(
-            estimator: *mut Estimator,
-            phi: *const $T,
-            n: usize,
-            prediction: *mut $T,
-        ) -> i32 {
-            // SAFETY: as above.
-            unsafe {
-                let pointers = [phi.is_null(), prediction.is_null()];
-                code(checked(estimator, $number, n, &pointers).map(|kind| {
-                    (kind.predict)(estimator, phi.cast(), prediction.cast());
-                }))
-            }
-        }
-
-        /// θ
-        ///
-        /// # Safety
-        /// Each pointer is null or points to what it says.
-        #[no_mangle]
-        pub unsafe extern "C" fn $theta(
-            estimator: *mut Estimator,
-            theta: *mut $T,
-            n: usize,
-        ) -> i32 {
-            // SAFETY: as above.
-            unsafe {
-                code(checked(estimator, $number, n, &[theta.is_null()]).map(|kind| {
-                    (kind.theta)(estimator, theta.cast());
-                }))
-            }
-        }
-
-        /// P
-        ///
-        /// # Safety
-        /// Each pointer is null or points to what it says.
-        #[no_mangle]
-        pub unsafe extern "C" fn $covariance(
-            estimator: *mut Estimator,
-            covariance: *mut $T,
-            n: usize,
-        ) -> i32 {
-            // SAFETY: as above.
-            unsafe {
-                code(checked(estimator, $number, n, &[covariance.is_null()]).map(|kind| {
-                    (kind.covariance)(estimator, covariance.cast());
-                }))
-            }
-        }
-    };
-}
-typed!(f32, Number::F32, fg_update_f32, fg_predict_f32, fg_theta_f32, fg_covariance_f32);
-typed!(f64, Number::F64, fg_update_f64, fg_predict_f64, fg_theta_f64, fg_covariance_f64);
