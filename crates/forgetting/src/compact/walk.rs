@@ -64,7 +64,7 @@ impl<M: Memory> Forgetting<M> for Walk<M> {
             return Some(Form::Walk { noise, per_bound });
         }
         // no time has passed, or too little for numbers to show
-        (steps < M::Real::ONE).then_some(Form::Scale { growth: M::Real::ONE })
+        (steps < M::Real::ONE).then_some(Form::NOTHING)
     }
 
     fn forget(&self, (): &mut (), _: Step<'_, '_, M>) -> Result<Forgotten, Error> {

@@ -155,7 +155,7 @@ fn forget_and_measure<F: Forgetting<M>, M: Memory>(
     diagnostics.record_sample(sample);
     let form = match (gate, sample.rows()) {
         (Answer::Update, 1) => rule.form(forgetting_factor, elapsed),
-        (Answer::Freeze, 1) => Some(Form::Scale { growth: M::Real::ONE }),
+        (Answer::Freeze, 1) => Some(Form::NOTHING),
         _ => None,
     };
     let left_out = match form {

@@ -24,7 +24,6 @@ use crate::choice::{
 };
 use crate::error::Error;
 use crate::memory::Memory;
-use forgetting_kernels::Real;
 use core::marker::PhantomData;
 use forgetting_kernels::kernel::form::Form;
 
@@ -71,7 +70,7 @@ impl<M: Memory> Forgetting<M> for NoForgetting<M> {
 
     #[inline]
     fn form(&self, _: M::Real, _: M::Real) -> Option<Form<M::Real>> {
-        Some(Form::Scale { growth: M::Real::ONE })
+        Some(Form::NOTHING)
     }
 
     #[inline]

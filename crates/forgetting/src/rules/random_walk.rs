@@ -292,8 +292,14 @@ impl<M: Memory> Forgetting<M> for RandomWalk<M> {
         let noise = self.process_noise.scalar_given()? * self.steps(elapsed);
         let few = self.process_noise.parameters() <= FEW;
         let walks = noise >= M::Real::FLOOR || (noise > M::Real::ZERO && self.bound.is_none());
-        let every_sample = self.turns.is_none();
-        (few && walks && every_sample).then_some(Form::Walk { noise, per_bound: self.per_bound })
+        if !few || self.turns.is_some() {
+            return None;
+        }
+        if walks {
+            return Some(Form::Walk { noise, per_bound: self.per_bound });
+        }
+        // no time has passed, or too little for numbers to show
+        (elapsed < M::Real::ONE).then_some(Form::NOTHING)
     }
 
     #[inline]
