@@ -64,7 +64,7 @@ rust:
 	cargo test --workspace --exclude forgetting-py --exclude forgetting-wasm --profile $(PROFILE) --quiet
 
 python: build
-	$(WITH_RECORDS) $(BIN)/pytest -n auto
+	$(WITH_RECORDS) $(BIN)/pytest -n auto --dist worksteal
 
 build: $(VENV)/ready
 	$(DEVELOP) --profile $(PROFILE)
