@@ -68,7 +68,7 @@ rust:
 	cargo test --package forgetting --features serde --test serde --profile $(PROFILE) --quiet
 
 python: build
-	$(WITH_RECORDS) $(BIN)/pytest -n auto
+	$(WITH_RECORDS) $(BIN)/pytest -n auto --dist worksteal
 
 build: $(VENV)/ready
 	$(DEVELOP) --profile $(PROFILE)

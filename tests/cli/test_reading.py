@@ -110,7 +110,7 @@ def test_a_closed_pipe_changes_no_exit_code(
     assert (run.code, run.err) == (code, "")
 
 
-def test_nor_that_of_a_process(wound, closed):
+def test_a_closed_pipe_changes_no_exit_code_of_a_process(wound, closed):
     """What Python flushes at its exit would make it 120."""
     arguments = ["certify", str(wound), "-f", "y ~ 0 + x", "-r", "exponential", "-l", "0.95"]
     done = subprocess.run([*COMMAND, *arguments], stdout=closed, stderr=subprocess.PIPE)

@@ -53,8 +53,9 @@ def eigen_symmetric(a: Matrix) -> tuple[list[Real], Matrix]:
 
 def _orthogonal(v: Matrix, iterations: int) -> Matrix:
     """Newton-Schulz: every iteration squares the departure from orthogonality."""
+    three = 3 * identity(v.nrows())
     for _ in range(iterations):
-        v = (v * (3 * identity(v.nrows()) - transpose(v) * v) / 2).mid()
+        v = (v * (three - transpose(v) * v) / 2).mid()
     return v
 
 

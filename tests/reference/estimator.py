@@ -6,7 +6,7 @@ import numpy as np
 
 from .cost import Cost
 from .gf_rls import Measurement, theorem_1
-from .linalg import Matrix, Real, cholesky, identity, inverse, matrix, symmetric_parameter
+from .linalg import Matrix, Real, cholesky, inverse, matrix, symmetric_parameter
 from .rates.constant import Rate as ConstantRate
 from .step import Rule, Step
 
@@ -48,8 +48,9 @@ class Estimator:
     def update(self, phi: np.ndarray, y: np.ndarray, gamma: np.ndarray | None = None) -> None:
         """phi (p, n), y (p, targets), gamma (p, p) positive definite or None for I."""
         phi, y = matrix(phi), matrix(y)
-        root = identity(phi.nrows()) if gamma is None else cholesky(matrix(gamma))
-        phi, y = root.solve(phi).mid(), root.solve(y).mid()
+        if gamma is not None:
+            root = cholesky(matrix(gamma))
+            phi, y = root.solve(phi).mid(), root.solve(y).mid()
         clip = Real(1)
         if self.weighting is not None:
             clip = self.weighting.weight((y - phi * self.theta).mid())

@@ -7,6 +7,8 @@ the self-check of the references measures what is left of them.
 
 from __future__ import annotations
 
+from operator import mul
+
 import flint
 import numpy as np
 
@@ -65,7 +67,8 @@ def trace(a: Matrix) -> Real:
 
 
 def dot(a: list[Real], b: list[Real]) -> Real:
-    return sum((x * y for x, y in zip(a, b, strict=True)), Real(0)).mid()
+    """Sum of the products, up to the end of the shorter list."""
+    return sum(map(mul, a, b), Real(0)).mid()
 
 
 def columns(a: Matrix) -> list[list[Real]]:
@@ -85,16 +88,16 @@ def block_diagonal(a: Matrix, blocks: list[range]) -> Matrix:
 
 def cholesky(a: Matrix) -> Matrix:
     """Lower L with L L^T = a; ``ArithmeticError`` unless ``a`` is positive definite."""
-    n = a.nrows()
-    low = [[Real(0)] * n for _ in range(n)]
-    for j in range(n):
-        pivot = (a[j, j] - dot(low[j][:j], low[j][:j])).mid()
+    low: list[list[Real]] = []
+    for j, given in enumerate(a.tolist()):
+        row: list[Real] = []
+        for above, value in zip(low, given, strict=False):
+            row.append(((value - dot(row, above)) / above[-1]).mid())
+        pivot = (given[j] - dot(row, row)).mid()
         if not pivot > 0:
             raise ArithmeticError(f"not positive definite: pivot {j} is {pivot}")
-        low[j][j] = pivot.sqrt().mid()
-        for i in range(j + 1, n):
-            low[i][j] = ((a[i, j] - dot(low[i][:j], low[j][:j])) / low[j][j]).mid()
-    return Matrix(low)
+        low.append([*row, pivot.sqrt().mid()])
+    return Matrix([row + [Real(0)] * (len(low) - len(row)) for row in low])
 
 
 def to_float(a: Matrix) -> np.ndarray:

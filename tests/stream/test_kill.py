@@ -28,6 +28,14 @@ def source(tmp_path_factory) -> Path:
     return path
 
 
+@pytest.fixture(scope="module")
+def whole(source) -> bytes:
+    """What a process says that nobody kills."""
+    out = source.with_name("whole")
+    run(source, source.with_name("state of the whole"), out, True, None)
+    return out.read_bytes()
+
+
 def run(source: Path, state: Path, out: Path, follow: bool, enough: int | None) -> None:
     """One process, its lines behind those before; killed once it wrote so many bytes, or never."""
     arguments = [*COMMAND, *PLANT, "--fields", "row,error,theta", "--state", str(state)]
@@ -49,12 +57,11 @@ def run(source: Path, state: Path, out: Path, follow: bool, enough: int | None) 
 
 
 @pytest.mark.parametrize("follow", [False, True], ids=["offered again", "file"])
-def test_killed_and_resumed(tmp_path, source, follow):
-    whole, state, out = (tmp_path / name for name in ("whole", "state", "out"))
-    run(source, tmp_path / "other state", whole, follow, None)
-    expected = [line for line in whole.read_bytes().splitlines() if b'"alarm"' not in line]
+def test_killed_and_resumed(tmp_path, source, whole, follow):
+    state, out = tmp_path / "state", tmp_path / "out"
+    expected = [line for line in whole.splitlines() if b'"alarm"' not in line]
     rng = np.random.default_rng(8 + follow)
-    share = len(whole.read_bytes()) // (KILLS + 1)
+    share = len(whole) // (KILLS + 1)
     saved, begins = [0], []
     for _ in range(KILLS):
         begins.append(count(out))
