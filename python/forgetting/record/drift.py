@@ -206,7 +206,7 @@ def along(
         if origin is not None:  # of a model of one output
             change, theta = origin.change(theta[:, 0]), origin.express(theta[:, 0])[:, None]
         thetas.append(theta)
-        spread = np.einsum("ij,jk,ik->i", change, estimator.covariance, change)
+        spread = ((change @ estimator.covariance) * change).sum(axis=1)
         spreads.append(spread[:, None] * noise.variance)
         start = row + 1
     return here.theta(np.array(thetas)), np.array(spreads)
