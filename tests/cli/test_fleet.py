@@ -52,6 +52,12 @@ def whole_fleet() -> TableFleet:
     return fleet
 
 
+def whole_fleet_told() -> list[pa.Table]:
+    """What is told of each partition."""
+    fleet = TableFleet("device", "y", "u", time="t", offset=True)
+    return [fleet.update(part(k)) for k in range(FILES)]
+
+
 def streams_of(path: Path) -> list[dict[str, object]]:
     return feather.read_table(path).to_pylist()
 
@@ -198,6 +204,46 @@ def test_a_run_that_is_killed_goes_on(tmp_path):
         told = fleet.update(part(k, 200))
         assert parquet.read_table(out / f"{k:02d}.parquet").to_pylist() == told.to_pylist()
     assert streams_of(state) == fleet.to_arrow().to_pylist()
+
+
+DYING = """
+import os, signal, sys
+from pathlib import Path
+from forgetting.tables import TableFleet, pages, state
+from forgetting.tables.partitions import find
+from forgetting.tables.resumable import Work
+
+pages.PAGE = state.PAGE = 8  # several pages
+whole, saves = state.parts, []
+
+def dying(streams):
+    saves.append(None)
+    for count, part in enumerate(whole(streams)):
+        yield part
+        if len(saves) == 3 and count == 2:
+            os.kill(os.getpid(), signal.SIGKILL)
+
+state.parts = dying
+fleet = TableFleet("device", "y", "u", time="t", offset=True)
+Work(fleet, find([sys.argv[1]]), Path(sys.argv[2]), Path(sys.argv[3])).run()
+"""
+
+
+def test_a_run_that_is_killed_while_it_writes_its_state_goes_on(data, tmp_path):
+    state, out = tmp_path / "f.arrow", tmp_path / "out"
+    child = subprocess.run([sys.executable, "-c", DYING, str(data), str(out), str(state)])
+    assert child.returncode == -signal.SIGKILL
+    (half,) = tmp_path.glob(".f.*.arrow")  # what it was at
+    with pytest.raises(pa.ArrowInvalid):
+        feather.read_table(half)
+    fleet = TableFleet("device", "y", "u", time="t", offset=True)
+    again = Work(fleet, find([str(data)]), out, state)
+    assert [each.name for each in again.left] == ["part2.parquet", "part3.parquet"]
+    again.run()
+    assert streams_of(state) == whole_fleet().to_arrow().to_pylist()
+    told = whole_fleet_told()
+    for k in range(FILES):
+        assert parquet.read_table(out / f"part{k}.parquet").equals(told[k])
 
 
 def test_new_partitions_are_taken_by_the_next_run(forgetting, data, tmp_path):

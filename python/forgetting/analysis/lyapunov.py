@@ -19,6 +19,9 @@ from numpy.typing import ArrayLike
 from .trajectory import Trajectory
 from .validation import Array, numbers, real, refuse, stack, whole
 
+PIECE = 4096
+"""Samples whose decrease is found at a time."""
+
 
 def lyapunov_decrease(alpha: float, beta: float, b: float, window: int) -> float:
     """Return c_N, the decrease of V per squared error that the theory guarantees.
@@ -63,14 +66,24 @@ def observed_decrease(trajectory: Trajectory, window: int) -> Array:
     """
     window = whole("window", window, 1, trajectory.samples)
     starts = trajectory.samples - window + 1
-    root = np.linalg.cholesky(trajectory.before[:starts])
+    # some at a time: eight matrices of each are there at once
+    parts = [range(first, min(first + PIECE, starts)) for first in range(0, starts, PIECE)]
+    return np.concatenate([_decrease(trajectory, window, part) for part in parts])
+
+
+def _decrease(trajectory: Trajectory, window: int, starts: range) -> Array:
+    """The smallest eigenvalue of Δ^N V_k for some k, (len(starts),)."""
+    root = np.linalg.cholesky(trajectory.before[starts.start : starts.stop])
     # In the coordinates x = C z with P_k = C Cᵀ every product stays of order one.
     moved = root
     for step in range(window):
-        phibar = trajectory.phibar[step : step + starts]
-        gain = np.einsum("tij,tpj->tip", trajectory.after[step : step + starts], phibar)
+        rows = slice(starts.start + step, starts.stop + step)
+        phibar = trajectory.phibar[rows]
+        gain = np.einsum("tij,tpj->tip", trajectory.after[rows], phibar)
         moved = moved - gain @ (phibar @ moved)
-    last = np.linalg.cholesky(trajectory.after[window - 1 :])
+    last = np.linalg.cholesky(
+        trajectory.after[starts.start + window - 1 : starts.stop + window - 1]
+    )
     kept = np.linalg.solve(last, moved)
     share = np.eye(trajectory.parameters) - np.swapaxes(kept, 1, 2) @ kept
     back = np.linalg.solve(root, np.broadcast_to(np.eye(trajectory.parameters), root.shape))

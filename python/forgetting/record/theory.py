@@ -123,9 +123,9 @@ def theory(
     before = np.asarray(estimator.covariance, dtype=np.float64) * scale if known else None
     regressors, outputs = samples.rows(slice(start, None))
     phi, y = as_run(regressors, outputs, dtype)
-    run = estimator.run(phi, y, outputs=OUTPUTS, missing="skip")
     made = certify(
-        in_units(run, scale),
+        # of the run itself nothing is kept: all P are there in units alone
+        in_units(estimator.run(phi, y, outputs=OUTPUTS, missing="skip"), scale),
         regressors / found.units,
         initial_covariance=before,
         rule=rule if initial_covariance is not None else None,
