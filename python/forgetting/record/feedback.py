@@ -30,10 +30,13 @@ class Feedback:
         By the column of phi.
     outputs : int
         Outputs of the model.
+    of_noise : int
+        Coefficients of past noise.
     """
 
     lags: dict[int, tuple[int, int]]
     outputs: int
+    of_noise: int = 0
 
     @property
     def deepest(self) -> int:
@@ -59,6 +62,9 @@ def feedback(samples: Samples) -> Feedback:
     >>> feedback(Samples(phi, y, ("1", "lag(y)"), ("y",), "", None, "")).lags
     {1: (1, 0)}
     """
+    if samples.layout is not None:  # filtered, so that values do not tell
+        past = samples.layout.past_outputs
+        return Feedback({place: (place + 1, 0) for place in past}, 1, samples.layout.of_noise)
     known = np.flatnonzero(samples.complete)
     first = known[: LOOKED_AT + DEEPEST]
     found: dict[int, tuple[int, int]] = {}

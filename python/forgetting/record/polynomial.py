@@ -56,6 +56,7 @@ class Recorded:
             self.record.name,
             found=self.record.found,
             measured=own.y,
+            layout=own.model.layout(len(self.inputs)),
             origin=own.model.origin(first_values(np.column_stack([own.inputs, own.output]))),
         ).check()
 
