@@ -7,6 +7,7 @@ import pandas as pd
 import pytest
 
 import forgetting as fg
+from forgetting.models.layout import Layout
 from forgetting.models.signal_origin import SignalOrigin
 from forgetting.record.identify import identify
 from reference.polynomial import SYSTEMS, record
@@ -86,7 +87,7 @@ def test_the_constant_is_told_as_the_model_tells_it(name):
 
 
 def test_the_gradient_is_that_of_the_constant():
-    origin = SignalOrigin.of(np.array([3.0, -2.0]), 7.0, 2, [(2, 1, 0), (1, 2, 1)], 2)
+    origin = SignalOrigin.of(np.array([3.0, -2.0, 7.0]), Layout.of(2, [(2, 1), (1, 2)], noise=2))
     theta = np.array([0.5, 0.2, 1.0, 2.0, 3.0, 0.1, 0.2, 0.6, 0.3, 0.1, 4.0])
     step = 1e-6 * np.eye(len(theta))
     slope = (origin.express(theta + step) - origin.express(theta - step))[:, -1] / 2e-6

@@ -45,6 +45,17 @@ def test_it_finds_what_arx_cannot(frame):
     assert all(finding.severity == "good" for finding in found.judgement.findings)
 
 
+def test_the_judge_knows_which_regressors_are_measured(frame):
+    """Past noise is no input, and past outputs make poles."""
+    found = identify(frame, output="y", input="u", model=ORDERS).judgement
+    assert "follows from the past of u(k-1)" in str(found["inputs"])
+    modulus = float(str(found["poles"]).split("modulus ")[1].rstrip("."))
+    assert modulus == pytest.approx(0.9, abs=0.03)
+    early = identify(frame, output="y", input="u", model="armax:na=1,nb=1,nc=1,nk=0").judgement
+    assert early["inputs"].severity == "warning"
+    assert "Add past values of u(k)" in str(early["inputs"])
+
+
 def test_a_gap_of_the_clock_is_left_out(frame):
     found = identify(frame, output="y", input="u", model=ORDERS)
     # the first, and that after the gap

@@ -10,7 +10,8 @@ from forgetting.models.armax import ARMAX
 from forgetting.models.arx import ARX
 from forgetting.models.bj import BJ
 from forgetting.models.fir import FIR
+from forgetting.models.named import NamedModel
 from forgetting.models.oe import OE
 from forgetting.models.orders import Orders
 
-__all__ = ["AR", "ARMA", "ARMAX", "ARX", "BJ", "FIR", "OE", "Orders"]
+__all__ = ["AR", "ARMA", "ARMAX", "ARX", "BJ", "FIR", "OE", "NamedModel", "Orders"]

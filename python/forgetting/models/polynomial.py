@@ -14,6 +14,7 @@ from forgetting.frames.channels import channel_names, channels, paired
 from forgetting.models.constructor import Constructor
 from forgetting.models.estimator import new_estimator
 from forgetting.models.identified import identified
+from forgetting.models.layout import Layout
 from forgetting.models.mean_square import MEMORY, MeanSquare
 from forgetting.models.orders import per_input, whole
 from forgetting.models.signal_origin import SignalOrigin, first_values
@@ -252,11 +253,13 @@ class Polynomial(Constructor):
 
         None without a constant, as zero is the origin then.
         """
-        if not self.offset:
-            return None
-        orders = self._orders(len(first) - 1)
-        noise = orders["nc"] + orders["nd"]
-        return SignalOrigin.of(first[:-1], first[-1], orders["na"], orders["inputs"], noise)
+        return SignalOrigin.of(first, self.layout(len(first) - 1)) if self.offset else None
+
+    def layout(self, inputs: int) -> Layout:
+        """Where the parameters of each polynomial stand, for so many inputs."""
+        orders = self._orders(inputs)
+        each = [(nb, nf) for nb, nf, _ in orders["inputs"]]
+        return Layout.of(orders["na"], each, orders["nc"] + orders["nd"])
 
     def _start(self, inputs: int) -> tuple[SignalModel, RLS | Bank]:
         model = self.at_rest(inputs)

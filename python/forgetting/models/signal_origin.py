@@ -11,12 +11,13 @@ is said of standard errors here.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
+
+from forgetting.models.layout import Layout
 
 Array = NDArray[np.float64]
 
@@ -31,13 +32,12 @@ class SignalOrigin:
         First value of each input that is not missing; 0 before there is one.
     output : float
         That of the output.
-    a : slice
-    b, f : tuple of slice
-        Where the parameters of A stand, and those of B and F of each input. The constant is last.
+    layout : Layout
+        Where the parameters stand.
 
     Examples
     --------
-    >>> origin = SignalOrigin(np.array([20.0]), 300.0, slice(0, 1), (slice(1, 2),), (slice(0, 0),))
+    >>> origin = SignalOrigin(np.array([20.0]), 300.0, Layout.of(1, [(1, 0)], noise=0))
     >>> origin.express(np.array([0.9, 1.0, 0.0])).round(6).tolist()
     [0.9, 1.0, 10.0]
     >>> origin.change(np.array([0.9, 1.0, 0.0])).tolist()
@@ -46,27 +46,19 @@ class SignalOrigin:
 
     inputs: Array
     output: float
-    a: slice
-    b: tuple[slice, ...]
-    f: tuple[slice, ...]
+    layout: Layout
 
     @classmethod
-    def of(
-        cls, inputs: Array, output: float, na: int, each: Sequence[tuple[int, int, int]], noise: int
-    ) -> SignalOrigin:
-        """Of so many coefficients: `each` is (nb, nf, nk) of an input, `noise` those of C and D.
-
-        A value that is not known, NaN, counts as 0.
-        """
-        b = places(na, [nb for nb, _, _ in each])
-        f = places(na + sum(nb for nb, _, _ in each) + noise, [nf for _, nf, _ in each])
-        return cls(np.nan_to_num(inputs), float(np.nan_to_num(output)), slice(0, na), b, f)
+    def of(cls, first: Array, layout: Layout) -> SignalOrigin:
+        """By the first values of all inputs and of the output, (inputs + 1,); NaN counts as 0."""
+        known = np.nan_to_num(first)
+        return cls(known[:-1], float(known[-1]), layout)
 
     def express(self, theta: Array) -> Array:
         """Parameters (..., n) of signals less their first values, for signals as they are."""
         found = theta.copy()
-        found[..., -1] += self.output * (1.0 - theta[..., self.a].sum(axis=-1))
-        for u, b, f in zip(self.inputs, self.b, self.f, strict=True):
+        found[..., -1] += self.output * (1.0 - theta[..., self.layout.a].sum(axis=-1))
+        for u, b, f in self._of_inputs():
             found[..., -1] -= u * theta[..., b].sum(axis=-1) / (1.0 - theta[..., f].sum(axis=-1))
         return found
 
@@ -74,8 +66,8 @@ class SignalOrigin:
         """Of the constant of signals as they are along all parameters, (..., n)."""
         found = np.zeros_like(theta)
         found[..., -1] = 1.0
-        found[..., self.a] = -self.output
-        for u, b, f in zip(self.inputs, self.b, self.f, strict=True):
+        found[..., self.layout.a] = -self.output
+        for u, b, f in self._of_inputs():
             slow = 1.0 - theta[..., f].sum(axis=-1, keepdims=True)
             found[..., b] = -u / slow
             found[..., f] = -u * theta[..., b].sum(axis=-1, keepdims=True) / slow**2
@@ -86,6 +78,10 @@ class SignalOrigin:
         change = np.eye(len(theta))
         change[-1] = self.gradient(theta)
         return change
+
+    def _of_inputs(self) -> Iterator[tuple[float, slice, slice]]:
+        """First value, and places of B and F, of each input."""
+        return zip(self.inputs.tolist(), self.layout.b, self.layout.f, strict=True)
 
     def covariance(self, theta: Array, covariance: Array) -> Array:
         """P (n, n) of parameters for signals as they are."""
@@ -106,15 +102,3 @@ def first_values(signals: Array) -> Array:
     columns = np.arange(signals.shape[1])
     found = signals[rows, columns] if len(signals) else np.full(signals.shape[1], np.nan)
     return np.asarray(found)
-
-
-def places(start: int, counts: Sequence[int]) -> tuple[slice, ...]:
-    """Slices of so many numbers each, one after the other.
-
-    Examples
-    --------
-    >>> places(2, [2, 1])
-    (slice(2, 4, None), slice(4, 5, None))
-    """
-    ends = np.cumsum([start, *counts]).tolist()
-    return tuple(slice(a, b) for a, b in pairwise(ends))

@@ -32,11 +32,14 @@ class Feedback:
         Outputs of the model.
     known : mapping of int to float
         By the lag, of a model with one output: what its coefficient is more than what is estimated.
+    of_noise : int
+        Coefficients of past noise.
     """
 
     lags: dict[int, tuple[int, int]]
     outputs: int
     known: dict[int, float] = field(default_factory=dict)
+    of_noise: int = 0
 
     @property
     def deepest(self) -> int:
@@ -75,6 +78,9 @@ def feedback(samples: Samples) -> Feedback:
     >>> feedback(Samples(phi, y, ("1", "lag(y)"), ("y",), "", None, "")).lags
     {1: (1, 0)}
     """
+    if samples.layout is not None:  # filtered, so that values do not tell
+        past = samples.layout.past_outputs
+        return Feedback({place: (place + 1, 0) for place in past}, 1, samples.layout.of_noise)
     known = np.flatnonzero(samples.complete)
     first = known[: LOOKED_AT + DEEPEST]
     found: dict[int, tuple[int, int]] = {}

@@ -238,12 +238,13 @@ def errors_without_inputs(
     """One-step errors (T, m) of the same rule on past outputs and the constant alone.
 
     None where that is the model itself, where there are no past outputs, where the rule has
-    settings for each parameter, or where a function of the user's would be called once more.
+    settings for each parameter, where a function of the user's would be called once more, or where
+    the model makes its regressors as it goes.
     """
     constant = constants(samples)
     kept = [i for i in range(samples.parameters) if i in past.lags or constant[i]]
-    functions = "<" in f"{rule!r} {gate!r}"
-    if not past.lags or len(kept) == samples.parameters or functions:
+    refused = "<" in f"{rule!r} {gate!r}" or samples.samples.is_pseudolinear
+    if not past.lags or len(kept) == samples.parameters or refused:
         return None
     try:
         estimator = estimator_for(len(kept), rule, gate=gate, **settings)

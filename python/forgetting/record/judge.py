@@ -160,7 +160,7 @@ def of_outputs(judged: Judged) -> Iterator[Finding | None]:
         error = np.where(settled, trace.error[:, j], np.nan)
         yield accuracy.intervals(error, predicted(trace, spread, j), name)
         error /= spread  # in place: a long record is not there twice
-        deep = judged.feedback.deepest
+        deep = judged.feedback.deepest + judged.feedback.of_noise
         past = residuals.own_past(error, deep)
         yield residuals.whiteness(past, name, deep)
         if past is not None:
@@ -191,7 +191,9 @@ def negligible(scores: Scores, j: int) -> bool:
 
 def signals(judged: Judged) -> Iterator[tuple[str, Array]]:
     """The regressors that are inputs and move, by name, one after the other."""
-    places = [i for i in range(judged.parameters) if i not in judged.feedback.lags]
+    layout = judged.samples.samples.layout
+    every = range(judged.parameters) if layout is None else layout.past_inputs
+    places = [i for i in every if i not in judged.feedback.lags]
     for place in places[:MOST_INPUTS]:
         yield judged.samples.regressors[place], judged.samples.column(place)
 

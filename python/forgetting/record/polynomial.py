@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from forgetting._core import InvalidInput
+from forgetting._core import InvalidInput, structures
 from forgetting.models.named import NamedModel, in_text
 from forgetting.models.signal_origin import first_values
 from forgetting.record.dynamics import columns, refuse_repeats, stretches
@@ -56,7 +56,7 @@ class Recorded:
             self.record.name,
             found=self.record.found,
             measured=own.y,
-            is_pseudolinear=True,
+            layout=own.model.layout(len(self.inputs)),
             origin=own.model.origin(first_values(np.column_stack([own.inputs, own.output]))),
         ).check()
 
@@ -84,8 +84,8 @@ def recorded(
     made = named.make(offset=offset, **settings)
     y, u = columns(record, outputs), columns(record, inputs)
     try:
+        made.at_rest(len(inputs))  # refuses orders that are too large
         rows = with_gaps(stretches(record), len(y), made.reach_of(len(inputs)))
-        made.at_rest(len(inputs))
     except InvalidInput as error:
         raise RecordError(str(error)) from None
     padded = np.vstack([np.hstack([y, u]), np.full((1, 1 + len(inputs)), np.nan)])[rows]
@@ -198,8 +198,13 @@ def described(named: NamedModel, output: str, inputs: Sequence[str]) -> str:
     Examples
     --------
     >>> described(NamedModel.parse("oe:nb=2/1,nf=1"), "T", ["u", "v"])
-    'OE(nb=2/1, nf=1) of T on u, v'
+    'OE(nb=2/1, nf=1, nk=1) of T on u, v'
     """
-    each = (f"{order}={in_text(value)}" for order, value in named.orders)
+    made = named.make()
+    orders = {order: getattr(made, order) for order in structures()[named.name][1]}
+    each = (
+        f"{order}={in_text(tuple(value) if isinstance(value, list) else value)}"
+        for order, value in orders.items()
+    )
     words = f"{named.name.upper()}({', '.join(each)})"
     return f"{words} of {output}" + (f" on {', '.join(inputs)}" if inputs else "")

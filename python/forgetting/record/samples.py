@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from forgetting.models.layout import Layout
 from forgetting.models.signal_origin import SignalOrigin
 from forgetting.record.clock import Clock
 from forgetting.record.found import Found
@@ -46,8 +47,8 @@ class Samples:
     measured : ndarray, shape (T, m), or None
         The outputs as they were measured, where y is what was made of them: less what is known, or
         linear in the parameters of a model with coloured noise.
-    is_pseudolinear : bool
-        Whether regressors follow from the estimates, as they do where noise is coloured.
+    layout : Layout or None
+        Where the parameters of such a model stand.
     origin : SignalOrigin or None
         What such a model with a constant measures its signals from.
     """
@@ -62,8 +63,13 @@ class Samples:
     cut: int = 0
     found: Found = field(default_factory=Found)
     measured: Array | None = None
-    is_pseudolinear: bool = False
+    layout: Layout | None = None
     origin: SignalOrigin | None = None
+
+    @property
+    def is_pseudolinear(self) -> bool:
+        """Whether regressors follow from the estimates, as they do where noise is coloured."""
+        return self.layout is not None
 
     @property
     def as_measured(self) -> Array:
