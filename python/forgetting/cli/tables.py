@@ -72,6 +72,8 @@ def print_identification(found: Identification) -> None:
     if found.memories is not None:
         out.print(escape(found.memories.describe()), "\n")
     out.print(scores(found))
+    for sentence in found.intervals.describe(samples.outputs) if found.intervals else ():
+        out.print(escape(sentence), "\n")
     out.print(f"samples     {len(samples.y)}: {found.used} used, {found.left_out()}")
     out.print(f"covariance  largest / smallest eigenvalue of P at the end: {spread(found)}")
     out.print()
