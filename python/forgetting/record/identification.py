@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -15,11 +15,12 @@ from forgetting.analysis import Excited, Guarantee, guaranteed_bounds
 from forgetting.files import check_outputs
 from forgetting.judgement import Judgement
 from forgetting.record import estimates
+from forgetting.record.changes import Change, changes
 from forgetting.record.counts import Counts
 from forgetting.record.drift import Drift, claim, drift
 from forgetting.record.intervals import OneStep
 from forgetting.record.known import Known
-from forgetting.record.memories import Memories, memories
+from forgetting.record.memories import Memories, memories, memory
 from forgetting.record.origin import origin
 from forgetting.record.parameters import final
 from forgetting.record.samples import Samples, pieces
@@ -160,6 +161,12 @@ class Identification(Counts):
         """Intervals about one-step predictions, and their coverage; None without a level."""
         return None if self.level is None else OneStep(self.trace, self.level)
 
+    @cached_property
+    def changes(self) -> list[Change]:
+        """When errors became larger than those before allow; see `forgetting.record.changes`."""
+        moves = self.settings["initial_covariance"] is None
+        return changes(origin(self.samples, moves).moved(self.samples))
+
     @property
     def theta(self) -> Array:
         """Estimate after each sample, (T, n, m)."""
@@ -200,21 +207,8 @@ class Identification(Counts):
 
     @property
     def memory(self) -> float:
-        """Samples that the estimate stands on at the end; infinite if nothing is forgotten.
-
-        Of a bank its own figure. Of a rule n over the part h = s/(1 + s) that a sample decides of
-        its own fit, on average over the last quarter of the samples used, s being the leverage.
-        """
-        if self.trace.memory is not None:
-            return float(self.trace.memory[-1])
-        if (self.trace.forgetting_factor[self.trace.skipped == USED] == 1).all() and not np.any(
-            self.trace.variance[-1] > self.trace.variance.min(axis=0)
-        ):
-            return float("inf")
-        leverage = self.trace.leverage[self.trace.skipped == USED]
-        leverage = leverage[-max(len(leverage) // 4, 1) :]
-        own = float(np.mean(leverage / (1 + leverage))) if len(leverage) else 0.0
-        return self.theta.shape[1] / own if own > 0 else float("inf")
+        """Samples that the estimate stands on at the end; infinite if nothing is forgotten."""
+        return memory(self.trace)
 
     @property
     def rule_in_words(self) -> str:
@@ -294,6 +288,7 @@ class Identification(Counts):
                 "largest_eigenvalue": float(ends[-1]),
                 "ratio": self.covariance_ratio,
             },
+            "changes": [asdict(change) for change in self.changes],
             "windup_samples": int(self.trace.windup.sum()),
             "judgement": self.judgement.to_dict(),
             "verdicts": self.verdicts,

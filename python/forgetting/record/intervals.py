@@ -59,7 +59,7 @@ class OneStep:
         known = settled(self.trace)[:, None] & np.isfinite(half_width) & np.isfinite(error)
         inside = known & (np.abs(error) <= half_width)
         with np.errstate(invalid="ignore"):
-            return (inside.sum(axis=0) / known.sum(axis=0)).tolist()
+            return list(map(float, inside.sum(axis=0) / known.sum(axis=0)))
 
     def by_output(self, outputs: tuple[str, ...]) -> dict[str, dict[str, float]]:
         """What both held of each output, and their last half-widths."""
