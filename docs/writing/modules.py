@@ -63,7 +63,10 @@ MODULES = (
         "forgetting",
         (
             ("One estimator", ("RLS", "Update", "Run", "Evidence")),
-            ("How far to trust it", ("Health", "ExcitationMeter", "Intervals", "bounded")),
+            (
+                "How far to trust it",
+                ("Health", "ExcitationMeter", "predict", "Prediction", "Intervals", "bounded"),
+            ),
             ("Several on one stream", ("Bank", "BankUpdate")),
             (
                 "Dynamic models",
@@ -120,6 +123,7 @@ INTERNAL = (
     "fleet",
     "health",
     "meter",
+    "prediction",
     "registry",
     "words",
 )

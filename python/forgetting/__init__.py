@@ -33,6 +33,7 @@ from .health import Health
 from .meter import ExcitationMeter
 from .models import AR, ARMA, ARMAX, ARX, BJ, FIR, OE
 from .polynomials import PolynomialModel
+from .prediction import Prediction, predict
 from .registry import *  # noqa: F403 (the axes and their registries)
 from .tuning import Tuning, tune, tune_arx, tune_model
 
@@ -59,11 +60,13 @@ __all__ = [
     "InvalidInput",
     "NumericalRange",
     "PolynomialModel",
+    "Prediction",
     "Run",
     "Tuning",
     "Update",
     "__version__",
     "bounded",
+    "predict",
     "tune",
     "tune_arx",
     "tune_model",

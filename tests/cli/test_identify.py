@@ -155,3 +155,18 @@ def test_the_report_shows_what_was_known(forgetting, battery, tmp_path):
     for text in (run.out, report.read_text(encoding="utf-8")):
         for part in ("known before", "at least 0", "given"):
             assert part in text
+
+
+def test_a_level_gives_intervals(forgetting, battery, tmp_path):
+    estimates, report = tmp_path / "e.csv", tmp_path / "out.html"
+    files = ("--estimates", estimates, "--report", report)
+    run = forgetting("identify", battery, *FORMULA, "--level", "0.8", *files)
+    assert (run.code, run.err) == (0, "")
+    table = pd.read_csv(estimates)
+    known = table.dropna(subset=["lower:V"])
+    assert len(known) > 150
+    assert (known["lower:V"] + known["upper:V"]).to_numpy() == pytest.approx(
+        2 * known["predicted:V"]
+    )
+    assert "within the 0.8 interval" in run.out
+    assert "within the 0.8 interval" in report.read_text(encoding="utf-8")

@@ -43,6 +43,7 @@ MODEL = ("--formula", "V ~ I")
         ((*MODEL, "--fixed", "I=1e999"), "the fixed value of 'I' is inf"),
         ((*MODEL, "--prior", "I=1+-0"), "the prior of 'I' is 0.0; allowed: a finite number above"),
         ((*MODEL, "--prior", "I=1+-1", "--noise", "nan"), "the noise is nan"),
+        ((*MODEL, "--level", "95"), "level = 95.0, allowed: between 0 and 1"),
         ((*MODEL, "--dtype", "float16"), "--dtype is 'float16'"),
         ((*MODEL, "--report", "o.txt"), "--report writes .html, .htm, but got 'o.txt'"),
         ((*MODEL, "--plot", "o.bmp"), "--plot writes .png"),

@@ -24,7 +24,7 @@ LAYERS: tuple[tuple[tuple[str, ...], str], ...] = (
     (("files", "frames"), "how files are written: whole or not at all; data frames in and out"),
     (("choice",), "what every rule, rate, weighting, gate and mixer is"),
     (("judgement",), "what speaks for and against an estimate, in words; the one judge"),
-    (("choices", "health", "meter"), "rules as classes; how one estimator fares"),
+    (("choices", "health", "meter", "prediction"), "rules as classes; how one estimator fares"),
     (("registry", "fleet"), "all the classes by name; how many estimators fare"),
     (("polynomials",), "what an identified model is, whoever estimated it"),
     (("models",), "they make regressors and keep an estimator behind them"),

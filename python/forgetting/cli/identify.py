@@ -52,6 +52,7 @@ def identify(
     fixed: options.Fixed = None,
     prior: options.Prior = None,
     noise: options.Noise = None,
+    level: options.Level = None,
     report: options.Report = None,
     estimates: options.Estimates = None,
     plot: options.Plot = None,
@@ -89,6 +90,7 @@ def identify(
             fixed=parse_known("fixed", fixed),
             prior=parse_known("prior", prior),
             noise=noise,
+            level=level,
             progress=progress,
         )
     print_result(found, write(found, report, estimates, plot), as_json)

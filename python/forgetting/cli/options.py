@@ -283,6 +283,15 @@ Share = Annotated[
     ),
 ]
 Dtype = Annotated[str, option(RULE, "float64 or float32.", "--dtype")]
+Level = Annotated[
+    float | None,
+    option(
+        FILES,
+        "Share that intervals about one-step predictions are to hold, such as 0.95; their ends are "
+        "columns of the estimates, and what they held is told.",
+        "--level",
+    ),
+]
 Report = Annotated[
     Path | None,
     option(

@@ -20,6 +20,10 @@ if TYPE_CHECKING:
     from forgetting.record import Identification
 
 
+CHANGES = 5
+"""Changes that are printed; JSON and report have all of them."""
+
+
 class Quiet(Console):
     """A console whose reader may leave: what is left is not printed, and the work goes on."""
 
@@ -72,7 +76,13 @@ def print_identification(found: Identification) -> None:
     if found.memories is not None:
         out.print(escape(found.memories.describe()), "\n")
     out.print(scores(found))
+    for sentence in found.intervals.describe(samples.outputs) if found.intervals else ():
+        out.print(escape(sentence), "\n")
     out.print(f"samples     {len(samples.y)}: {found.used} used, {found.left_out()}")
+    for change in found.changes[:CHANGES]:
+        out.print(escape(str(change)))
+    if len(found.changes) > CHANGES:
+        out.print(f"and {len(found.changes) - CHANGES} more changes, see --json")
     out.print(f"covariance  largest / smallest eigenvalue of P at the end: {spread(found)}")
     out.print()
     print_findings(found.judgement, out)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from forgetting._core import InvalidInput
+from forgetting._core import Bank, InvalidInput
 from forgetting.frames import read, shaped_like
 from forgetting.frames.channels import channel_names, channels, paired
 from forgetting.models.constructor import Constructor
@@ -18,7 +18,9 @@ from forgetting.models.lags import names, regressors
 from forgetting.models.mean_square import MEMORY, MeanSquare
 from forgetting.models.orders import Orders, OrdersByInput, per_input
 from forgetting.models.simulation import free_run
+from forgetting.models.uncertainty import leverage, of_noise, of_parameters, root_of
 from forgetting.polynomials import PolynomialModel, Structure
+from forgetting.prediction import Prediction, around, quantile
 
 Array = NDArray[np.float64]
 
@@ -169,15 +171,93 @@ class ARX(Constructor):
         self._remember(orders, inputs, outputs)
         return self
 
-    def predict(self, u: ArrayLike | None, y: ArrayLike) -> Any:
+    def predict(self, u: ArrayLike | None, y: ArrayLike, level: float | None = None) -> Any:
         """Predict each y(k) one step ahead, from measured y(k-1), y(k-2), ... and the final theta.
 
         Returns an array shaped like y, of pandas and xarray with their index; NaN where a lag is
-        missing, so always in the first `Orders.reach` rows.
+        missing, so always in the first `Orders.reach` rows. With a level a `Prediction` of three,
+        the interval that holds this share of y(k): see `forecast`.
         """
         inputs, outputs = self._checked(u, y)
-        predicted = self._phi(inputs, outputs, self._orders(inputs)) @ self._theta()
-        return shaped_like(read("y", y), predicted[:, 0] if np.ndim(y) == 1 else predicted)
+        phi = self._phi(inputs, outputs, self._orders(inputs))
+        value = phi @ self._theta()
+        if level is None:
+            return self._like(y, value)
+        spread = 1.0 + leverage(phi, root_of(self.estimator_))
+        deviation = np.sqrt(np.outer(spread, self.noise_variance_))
+        made = around(value, deviation, quantile(level))
+        return Prediction(*(self._like(y, each) for each in made))
+
+    def forecast(self, u: ArrayLike | int, level: float | None = None) -> Any:
+        """Predict the outputs of the next samples, going on from the last one that was learned.
+
+        Parameters
+        ----------
+        u : array_like, shape (steps,) or (steps, inputs), or int
+            The inputs to come; for a model without inputs how many steps.
+        level : float, optional
+            Share of outputs that an interval about each is to hold, between 0 and 1.
+
+        Returns
+        -------
+        ndarray, shape (steps,) or (steps, outputs)
+            With a level a `Prediction` of three such arrays, value, lower and upper.
+
+        Raises
+        ------
+        InvalidInput
+            For a missing value in u or in the last rows that were learned.
+
+        Notes
+        -----
+        The interval has the noise to come, normal and white, and the uncertainty of the parameters
+        by the delta method, their covariance being that of P; of a bank (``rule="auto"``) the mean
+        square of its errors, in which it shows as far as it does one step ahead. Inputs are
+        supposed to be known.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import forgetting as fg
+        >>> rng = np.random.default_rng(0)
+        >>> y = np.zeros(1000)
+        >>> for k in range(1, 1000):
+        ...     y[k] = 0.9 * y[k - 1] + rng.normal()
+        >>> ahead = fg.AR(1, rule="none").fit(None, y).forecast(20, level=0.95)
+        >>> (ahead.upper - ahead.lower)[[0, 19]].round()  # twice 1.96 times 1 and 2.3
+        array([4., 9.])
+        """
+        self._check_is_fitted()
+        inputs = np.empty((u, 0)) if isinstance(u, int) else channels("u", u)
+        before, start = self._tail
+        self._match(inputs, start)
+        if np.isnan(before).any() or np.isnan(start).any():
+            raise InvalidInput("a value in the last rows is missing; a forecast begins behind them")
+        both = np.vstack([before, inputs])
+        orders = self._orders(inputs)
+
+        def run(theta: Array) -> Array:
+            constant = theta[-1] if self.offset else 0.0
+            coefficients = theta[: len(theta) - self.offset]
+            return free_run(both, start, coefficients, orders, constant)[len(start) :]
+
+        theta, outputs = self._theta(), self.n_outputs_
+        value = run(theta)
+        if level is None:
+            return self._plain(value)
+        feedback = theta[: self.na * outputs].reshape(self.na, outputs, outputs)
+        share = of_noise(feedback.transpose(0, 2, 1), len(value))
+        share = share + of_parameters(run, theta, root_of(self.estimator_))
+        made = around(value, np.sqrt(share @ self.noise_variance_), quantile(level))
+        return Prediction(*map(self._plain, made))
+
+    def _plain(self, values: Array) -> Array:
+        """Values (T, outputs) in the shape of the y that was learned."""
+        return values[:, 0] if self._single else values
+
+    def _like(self, y: ArrayLike, values: Array) -> Any:
+        """Values (T, outputs) shaped and indexed like y."""
+        return shaped_like(read("y", y), values[:, 0] if np.ndim(y) == 1 else values)
 
     def simulate(self, u: ArrayLike | int, y_start: ArrayLike | None = None) -> Array:
         """Run the model freely: its own past outputs stand in the lags, never measured ones.
@@ -203,7 +283,7 @@ class ARX(Constructor):
         constant = theta[-1] if self.offset else 0.0
         coefficients = theta[: len(theta) - self.offset]
         simulated = free_run(inputs, start, coefficients, self._orders(inputs), constant)
-        return simulated[:, 0] if self._single else simulated
+        return self._plain(simulated)
 
     def model(self, theta: ArrayLike | None = None, *, sample_time: float = 1.0) -> PolynomialModel:
         """Return what was identified of one output as a model: poles, gains, responses, tests.
@@ -250,11 +330,11 @@ class ARX(Constructor):
         target = outputs[skip:, 0] if outputs.shape[1] == 1 else outputs[skip:]
         dtype = np.dtype(self.dtype)
         phi, target = phi.astype(dtype, copy=False), target.astype(dtype, copy=False)
-        run = estimator.run(phi, target, outputs=("error", "skipped"), missing="skip")
-        noise.add(
-            np.asarray(run.error, dtype=np.float64).reshape(outputs[skip:].shape)[run.skipped == 0]
-            ** 2
-        )
+        run = estimator.run(phi, target, outputs=("error", "leverage", "skipped"), missing="skip")
+        squares = np.asarray(run.error, dtype=np.float64).reshape(outputs[skip:].shape) ** 2
+        if not isinstance(estimator, Bank):
+            squares /= 1.0 + np.asarray(run.leverage, dtype=np.float64)[:, np.newaxis]
+        noise.add(squares[run.skipped == 0])
         # Set only after success, so that a refused record leaves the model as it was.
         self.estimator_, self._noise = estimator, noise
         return int(run.used)
@@ -302,7 +382,7 @@ class ARX(Constructor):
     def noise_variance_(self) -> Array:
         """Variance of the noise of each output, (outputs,), over up to the last thousand samples.
 
-        NaN while there are too few.
+        Of a rule the mean of e²/(1 + leverage), of a bank that of e². NaN while there are too few.
         """
         self._learned("noise_variance_")
         return self._noise.value

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from forgetting.record.identification import finite
 from forgetting.record.samples import Samples
 from forgetting.tuning.candidate import tuned
 from forgetting.tuning.problem import Split
 from forgetting.tuning.runner import Trial
+from forgetting.words.finite import finite
 
 OWN_REGRESSORS = (
     "The model is not linear in its parameters: each rule makes its regressors from its own "

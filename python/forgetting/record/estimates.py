@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 import forgetting as fg
 from forgetting.extras import extra
 from forgetting.files import whole
+from forgetting.record.intervals import OneStep
 from forgetting.record.samples import Samples
 from forgetting.record.trace import Trace
 from forgetting.words.errors import RecordError
@@ -27,6 +28,7 @@ def table(
     trace: Trace,
     standard_error: Callable[[int, int, slice], Array],
     part: slice | None = None,
+    intervals: OneStep | None = None,
 ) -> pd.DataFrame:
     """One row per sample; a column's name has the quantity and its owner: ``estimate:poa``.
 
@@ -41,6 +43,8 @@ def table(
         ± of parameter i of output j after some rows.
     part : slice, optional
         These rows only.
+    intervals : OneStep, optional
+        About the predictions; ``lower:V`` and ``upper:V`` are the conformal ones.
     """
     rows = slice(0, len(samples.y)) if part is None else part
     columns: dict[str, Any] = {"row": range(rows.start + 1, rows.stop + 1)}
@@ -50,6 +54,9 @@ def table(
         columns[f"measured:{output}"] = samples.as_measured[rows, j]
         columns[f"predicted:{output}"] = samples.as_measured[rows, j] - trace.error[rows, j]
         columns[f"error:{output}"] = trace.error[rows, j]
+        if intervals is not None:
+            ends = intervals.columns(columns[f"predicted:{output}"], j, rows)
+            columns |= {f"{end}:{output}": values for end, values in ends.items()}
     columns["forgetting_factor"] = trace.forgetting_factor[rows]
     columns["leverage"] = trace.leverage[rows]
     columns["skipped"] = [fg.SKIPPED[code] or "used" for code in trace.skipped[rows].tolist()]

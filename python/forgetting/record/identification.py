@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -16,10 +15,12 @@ from forgetting.analysis import Excited, Guarantee, guaranteed_bounds
 from forgetting.files import check_outputs
 from forgetting.judgement import Judgement
 from forgetting.record import estimates
+from forgetting.record.changes import Change, changes
 from forgetting.record.counts import Counts
 from forgetting.record.drift import Drift, claim, drift
+from forgetting.record.intervals import OneStep
 from forgetting.record.known import Known
-from forgetting.record.memories import Memories, memories
+from forgetting.record.memories import Memories, memories, memory
 from forgetting.record.origin import origin
 from forgetting.record.parameters import final
 from forgetting.record.samples import Samples, pieces
@@ -28,6 +29,7 @@ from forgetting.record.trace import USED
 from forgetting.record.uncertainty import noise_variance, standard_errors
 from forgetting.record.units import parameter_unit
 from forgetting.words.duration import spoken
+from forgetting.words.finite import finite
 
 Array = NDArray[np.float64]
 
@@ -62,6 +64,8 @@ class Identification(Counts):
         Of estimators on this record: targets, initial_covariance and dtype.
     known : Known
         What was known of parameters before. Those that are fixed are not among the regressors.
+    level : float or None
+        Of the intervals about one-step predictions, where they were asked for.
     """
 
     samples: Samples
@@ -74,6 +78,7 @@ class Identification(Counts):
     settings: dict[str, Any]
     members: list[Any]
     known: Known = field(default_factory=Known)
+    level: float | None = None
 
     @cached_property
     def noise_variance(self) -> Array:
@@ -151,6 +156,17 @@ class Identification(Counts):
         moved = origin(self.samples, self.settings["initial_covariance"] is None)
         return memories(moved.moved(self.samples), self.trace, self.members, self.settings)
 
+    @cached_property
+    def intervals(self) -> OneStep | None:
+        """Intervals about one-step predictions, and their coverage; None without a level."""
+        return None if self.level is None else OneStep(self.trace, self.level)
+
+    @cached_property
+    def changes(self) -> list[Change]:
+        """When errors became larger than those before allow; see `forgetting.record.changes`."""
+        moves = self.settings["initial_covariance"] is None
+        return changes(origin(self.samples, moves).moved(self.samples))
+
     @property
     def theta(self) -> Array:
         """Estimate after each sample, (T, n, m)."""
@@ -191,21 +207,8 @@ class Identification(Counts):
 
     @property
     def memory(self) -> float:
-        """Samples that the estimate stands on at the end; infinite if nothing is forgotten.
-
-        Of a bank its own figure. Of a rule n over the part h = s/(1 + s) that a sample decides of
-        its own fit, on average over the last quarter of the samples used, s being the leverage.
-        """
-        if self.trace.memory is not None:
-            return float(self.trace.memory[-1])
-        if (self.trace.forgetting_factor[self.trace.skipped == USED] == 1).all() and not np.any(
-            self.trace.variance[-1] > self.trace.variance.min(axis=0)
-        ):
-            return float("inf")
-        leverage = self.trace.leverage[self.trace.skipped == USED]
-        leverage = leverage[-max(len(leverage) // 4, 1) :]
-        own = float(np.mean(leverage / (1 + leverage))) if len(leverage) else 0.0
-        return self.theta.shape[1] / own if own > 0 else float("inf")
+        """Samples that the estimate stands on at the end; infinite if nothing is forgotten."""
+        return memory(self.trace)
 
     @property
     def rule_in_words(self) -> str:
@@ -247,16 +250,18 @@ class Identification(Counts):
 
     def estimates(self) -> pd.DataFrame:
         """Every sample's estimate, error and prediction, as a table of T rows."""
-        return estimates.table(self.samples, self.trace, self.standard_error_of)
+        return self._table(None)
 
     def save_estimates(self, path: str | Path) -> None:
         """Write `estimates` as Parquet or CSV, by suffix."""
         check_outputs({"estimates": Path(path)}, self.samples.found.path)
-        tables = (
-            estimates.table(self.samples, self.trace, self.standard_error_of, part)
-            for part in pieces(len(self.samples.y))
-        )
+        tables = (self._table(part) for part in pieces(len(self.samples.y)))
         estimates.save(tables, Path(path))
+
+    def _table(self, part: slice | None) -> pd.DataFrame:
+        return estimates.table(
+            self.samples, self.trace, self.standard_error_of, part, self.intervals
+        )
 
     def summary(self) -> dict[str, Any]:
         """What `forgetting identify` prints, for JSON: None where a number is not finite."""
@@ -273,6 +278,7 @@ class Identification(Counts):
             "rmse": self.scores.by_output(self.samples.outputs),
             "read_as": self.samples.found.to_dict(),
             "clock": self.samples.clock_as_data(),
+            "intervals": self.intervals and self.intervals.to_dict(self.samples.outputs),
             "noise": dict(zip(self.samples.outputs, self.noise.tolist(), strict=True)),
             "memory": self.memory,
             "memories": None if self.memories is None else self.memories.to_dict(),
@@ -282,17 +288,9 @@ class Identification(Counts):
                 "largest_eigenvalue": float(ends[-1]),
                 "ratio": self.covariance_ratio,
             },
+            "changes": [asdict(change) for change in self.changes],
             "windup_samples": int(self.trace.windup.sum()),
             "judgement": self.judgement.to_dict(),
             "verdicts": self.verdicts,
         }
         return dict(finite(found))
-
-
-def finite(value: Any) -> Any:
-    """The value, all it contains included, with None in place of NaN and infinity."""
-    if isinstance(value, dict):
-        return {key: finite(each) for key, each in value.items()}
-    if isinstance(value, list):
-        return [finite(each) for each in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value

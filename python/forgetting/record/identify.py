@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import forgetting as fg
+from forgetting.prediction import check_level
 from forgetting.record.dynamics import dynamics
 from forgetting.record.feedback import Feedback, feedback
 from forgetting.record.half_life import with_time
@@ -56,6 +57,7 @@ def identify(
     fixed: Mapping[str, float] | None = None,
     prior: Mapping[str, tuple[float, float]] | None = None,
     noise: float | None = None,
+    level: float | None = None,
     time: str | None = None,
     gap: str | float | None = None,
     missing: str | float | Words = (),
@@ -108,6 +110,8 @@ def identify(
     noise : float, optional
         Standard deviation of the noise, which priors are weighed against; if not given, the root
         mean square one-step error of the same model without the priors.
+    level : float, optional
+        Between 0 and 1: intervals about one-step predictions, see `Identification.intervals`.
     time, gap, missing
         The clock, its gaps, and what stands for missing values; see `forgetting.record.read`.
     progress : callable, optional
@@ -142,6 +146,8 @@ def identify(
     (200, 0)
     """
     known = Known(bounds or {}, fixed or {}, prior or {}, noise)
+    if level is not None:
+        check_level(level)
     source = read(record, time, gap=gap, missing=missing)
     columns = listed(output), listed(input)
     course: Learned | None = None
@@ -224,6 +230,7 @@ def identify(
         settings=settings,
         members=estimator.members if isinstance(estimator, fg.Bank) else [],
         known=known,
+        level=level,
     )
 
 

@@ -146,3 +146,22 @@ def length(samples: Moved, rule: Any, settings: dict[str, Any]) -> float:
     leverage = leverage[-max(len(leverage) // 4, 1) :]
     own = float(np.mean(leverage / (1 + leverage))) if len(leverage) else 1.0
     return samples.parameters / max(own, 1e-300)
+
+
+def memory(trace: Trace) -> float:
+    """Samples that the estimate stands on at the end; infinite if nothing is forgotten.
+
+    Of a bank its own figure. Of a rule n over the part h = s/(1 + s) that a sample decides of its
+    own fit, on average over the last quarter of the samples used, s being the leverage.
+    """
+    if trace.memory is not None:
+        return float(trace.memory[-1])
+    used = trace.skipped == USED
+    if (trace.forgetting_factor[used] == 1).all() and not np.any(
+        trace.variance[-1] > trace.variance.min(axis=0)
+    ):
+        return float("inf")
+    leverage = trace.leverage[used]
+    leverage = leverage[-max(len(leverage) // 4, 1) :]
+    own = float(np.mean(leverage / (1 + leverage))) if len(leverage) else 0.0
+    return trace.theta.shape[1] / own if own > 0 else float("inf")

@@ -36,7 +36,7 @@ def page(found: Identification) -> Page:
         blocks = [parameters(found), scores(found)]
         for output in range(len(found.samples.outputs)):
             blocks += [signals(found, output), histories(found, output)]
-        blocks += [trust(found), memory(found), notes()]
+        blocks += [*changes(found), trust(found), memory(found), notes()]
     return Page(
         title=found.samples.source,
         subtitle=f"{found.samples.model} · {found.rule_in_words}",
@@ -116,6 +116,8 @@ def scores(found: Identification) -> Block:
         f"{result.samples} samples for all three. Each prediction is made before its sample is "
         f"learned."
     )
+    if found.intervals is not None:
+        text = " ".join([text, *found.intervals.describe(found.samples.outputs)])
     header = ("output", "this model", "same model, no forgetting", "last value repeated")
     return Block("One-step prediction", text, Table(header, rows))
 
@@ -161,6 +163,18 @@ def history(found: Identification, indices: list[int], output: int) -> Markup:
             ax.set_xlabel("")
     names = ", ".join(found.samples.regressors[index] for index in indices)
     return inline(figure, f"estimates of {names} over time with their bands")
+
+
+def changes(found: Identification) -> list[Block]:
+    """When the errors became larger than those before allow; none where they never did."""
+    if not found.changes:
+        return []
+    rows = [
+        (str(each.row), each.time or "–", "–" if each.until is None else str(each.until))
+        for each in found.changes
+    ]
+    text = "Rows from which the errors of ten samples are larger than those of a hundred allow."
+    return [Block("Changes", text, Table(("row", "time", "over at row"), rows))]
 
 
 def memory(found: Identification) -> Block:

@@ -6,9 +6,7 @@
   takes part in a direction that nothing informs: an input that stands still cannot be told from the
   constant, nor two inputs that go together from one another. The estimator forgets towards very
   little information, cyclically, so that P grows where nothing informs, and stays bounded.
-- change: another one, which forgets only where it is informed, has an F-test for its rate (Mohseni
-  and Bernstein 2022): the errors of the last 10 rows are larger than those of the last 100 by more
-  than chance allows.
+- change: see `forgetting.record.changes`.
 
 None of them depends on units, nor on how lines are grouped.
 """
@@ -24,15 +22,10 @@ from typing import Any
 import numpy as np
 
 import forgetting as fg
-from forgetting.record.trace import USED
+from forgetting.record.changes import FACTOR, TEST, Detector
 from forgetting.stream.rows import Array, Flags
 from forgetting.stream.running import run_all
 
-FACTOR = 0.99
-SHORT, LONG = 10, 100
-"""Rows of the two windows of the F-test."""
-SIGNIFICANCE = 1e-6
-"""A false alarm in about a million rows of independent, normal errors."""
 EVERY = 50
 """Rows after which the monitor is asked; the block of 100 samples' memory."""
 LITTLE = 1e-6
@@ -81,22 +74,13 @@ class Watch:
 
     def __init__(self, names: Sequence[str], outputs: int) -> None:
         self.names = tuple(names)
-        test = fg.FTest(
-            short_window=SHORT,
-            long_window=max(LONG, outputs + SHORT),
-            significance=SIGNIFICANCE,
-            largest=FACTOR,
-        )
         n = len(self.names)
-        self.test = fg.RLS(n, rule=fg.Subspace(test), targets=outputs)
+        self.changes = Detector(n, outputs)
         gauge = fg.CyclicResetting(FACTOR, information=LITTLE)
         self.gauge = fg.RLS(n, rule=gauge, targets=outputs, monitor=True)
         self.rows = 0
         self.winding_up = False
         self.silent: set[str] = set()
-        self.changing = False
-        self.steady = 0
-        """Rows since the test last found a change, while one goes on."""
 
     def take(self, phi: Array, y: Array, windup: Flags) -> list[Alarm]:
         """Take rows, in the order of time; what begins or ends in them, in that order."""
@@ -112,22 +96,9 @@ class Watch:
             self.winding_up = bool(flags[-1])
 
     def _changes(self, phi: Array, y: Array) -> Iterator[Alarm]:
-        brought = run_all(self.test, phi, y, ("forgetting_factor", "skipped")).outputs
-        changed = (brought["forgetting_factor"] < FACTOR) & (brought["skipped"] == USED)
-        if not self.changing and not changed.any():
-            return
-        first = self.rows + 1
-        for place, now in enumerate(changed.tolist()):
-            if now:
-                self.steady = 0
-                if not self.changing:
-                    self.changing = True
-                    yield Alarm("change", True, first + place)
-            elif self.changing:
-                self.steady += 1
-                if self.steady == LONG:
-                    self.changing, self.steady = False, 0
-                    yield Alarm("change", False, first + place)
+        brought = run_all(self.changes.estimator, phi, y, TEST).outputs
+        for place, begins in self.changes.take(*(brought[name] for name in TEST)):
+            yield Alarm("change", begins, self.rows + place + 1)
 
     def _excitation(self, phi: Array, y: Array) -> Iterator[Alarm]:
         at = 0
@@ -155,25 +126,25 @@ class Watch:
     def active(self) -> list[str]:
         """What has begun and not ended, in words."""
         words = ["windup"] if self.winding_up else []
-        words += ["change"] if self.changing else []
+        words += ["change"] if self.changes.changing else []
         return words + [f"unexcited {name}" for name in self.names if name in self.silent]
 
     def state(self) -> dict[str, Any]:
         """As `restore` takes it."""
         return {
-            "test": base64.b64encode(self.test.to_bytes()).decode(),
+            "test": base64.b64encode(self.changes.estimator.to_bytes()).decode(),
             "gauge": base64.b64encode(self.gauge.to_bytes()).decode(),
             "rows": self.rows,
             "winding_up": self.winding_up,
             "silent": sorted(self.silent),
-            "changing": self.changing,
-            "steady": self.steady,
+            "changing": self.changes.changing,
+            "steady": self.changes.steady,
         }
 
     def restore(self, state: dict[str, Any]) -> None:
         """Go on from a saved state."""
-        self.test = fg.RLS.from_bytes(base64.b64decode(state["test"]))
+        self.changes.estimator = fg.RLS.from_bytes(base64.b64decode(state["test"]))
         self.gauge = fg.RLS.from_bytes(base64.b64decode(state["gauge"]))
         self.rows, self.winding_up = state["rows"], state["winding_up"]
         self.silent = set(state["silent"])
-        self.changing, self.steady = state["changing"], state["steady"]
+        self.changes.changing, self.changes.steady = state["changing"], state["steady"]
