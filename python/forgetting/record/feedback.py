@@ -80,7 +80,9 @@ def feedback(samples: Samples) -> Feedback:
     """
     if samples.layout is not None:  # filtered, so that values do not tell
         past = samples.layout.past_outputs
-        return Feedback({place: (place + 1, 0) for place in past}, 1, samples.layout.of_noise)
+        return Feedback(
+            {place: (place + 1, 0) for place in past}, 1, of_noise=samples.layout.of_noise
+        )
     known = np.flatnonzero(samples.complete)
     first = known[: LOOKED_AT + DEEPEST]
     found: dict[int, tuple[int, int]] = {}
