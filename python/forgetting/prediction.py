@@ -76,7 +76,7 @@ def predict(
     >>> run = estimator.run(phi, y)
     >>> there = fg.predict(estimator, [1.0, 3.0], level=0.95)
     >>> round(there.value), round(there.upper - there.lower, 1)
-    (7, 0.4)
+    (7, 0.5)
     """
     check_level(level)
     if estimator.targets != 1:
