@@ -34,4 +34,5 @@ def live(axis: str, about: Mapping[str, Any]) -> list[str]:
     needs = any(parameter["required"] for parameter in about["parameters"])
     if axis != "rule" or needs:
         return []
-    return [LIVE.format(name=about["name"], height=HEIGHT)]
+    other = "subspace" if about["name"] == "exponential" else about["name"]
+    return [LIVE.format(name=other, height=HEIGHT)]

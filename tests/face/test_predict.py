@@ -25,6 +25,22 @@ def system(rng, samples, drift):
     return phi, (phi * theta).sum(axis=1) + 0.3 * rng.normal(size=samples)
 
 
+def test_the_method_says_the_same():
+    phi, y = system(np.random.default_rng(4), 200, 0.0)
+    estimator, bank = fg.RLS(3, monitor=True), fg.Bank(3)
+    estimator.run(phi, y)
+    errors = bank.run(phi, y).error
+    assert estimator.predict(phi[0], 0.9) == fg.predict(estimator, phi[0], 0.9)
+    found = bank.predict(phi[:5], level=0.5, errors=errors)
+    for each, other in zip(found, fg.predict(bank, phi[:5], 0.5, errors=errors), strict=True):
+        np.testing.assert_array_equal(each, other)
+    assert found.value.tolist() == bank.predict(phi[:5]).tolist()
+    with pytest.raises(fg.InvalidInput, match="level"):
+        estimator.predict(phi[0], level=1.5)
+    with pytest.raises(fg.InvalidInput, match="a bank needs"):
+        bank.predict(phi[0], level=0.9)
+
+
 @pytest.mark.parametrize("rule", RULES)
 def test_the_share_inside_is_the_level(rule):
     made, drift = RULES[rule]

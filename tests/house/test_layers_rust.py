@@ -63,7 +63,7 @@ LAYERS: dict[str, tuple[str, ...]] = {
     # what only Python needs
     "forgetting-py": (
         "errors",
-        "arrays pickle",
+        "arrays pickle prediction",
         "callable",
         "choice",
         "settings registry run update bank_update shared time",

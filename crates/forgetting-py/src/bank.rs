@@ -4,6 +4,7 @@ use crate::arrays::{output, output_or_float, Input};
 use crate::bank_update::BankUpdate;
 use crate::choice::{read, read_forgetting_factor, write};
 use crate::errors::{heed_signals, invalid, raise};
+use crate::prediction::interval;
 use crate::run::Run;
 use crate::settings::{
     names, read_choices, read_optional, view, write_description, Dtype, Names, Whole,
@@ -191,22 +192,32 @@ impl Bank {
         members.iter().map(rule).collect()
     }
 
-    /// phi @ theta.
+    /// phi @ theta; with a level the interval that holds the next measurement, too.
     ///
     /// Parameters
     /// ----------
     /// phi : (n,) or (T, n) array
+    /// level : float, optional
+    ///     Share of measurements that the interval holds, between 0 and 1; see `forgetting.predict`.
+    /// errors : (T,) array, optional
+    ///     One-step errors so far, of which the interval is then made; a bank needs them.
     ///
     /// Returns
     /// -------
-    /// float, (targets,), (T,) or (T, targets)
+    /// float, (targets,), (T,) or (T, targets); with a level a `Prediction` of three
+    #[pyo3(signature = (phi, level=None, *, errors=None))]
     fn predict<'py>(
-        &self,
-        py: Python<'py>,
+        slf: &Bound<'py, Self>,
         phi: &Bound<'py, PyAny>,
+        level: Option<&Bound<'py, PyAny>>,
+        errors: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let phi = self.input("phi", phi)?;
-        let bank = self.bank.lock(py)?;
+        if let Some(level) = level {
+            return interval(slf, phi, level, errors);
+        }
+        let (py, this) = (slf.py(), slf.get());
+        let phi = this.input("phi", phi)?;
+        let bank = this.bank.lock(py)?;
         output_or_float(py, bank.predict(phi.view("phi")?).map_err(raise)?)
     }
 

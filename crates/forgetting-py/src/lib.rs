@@ -11,6 +11,7 @@ mod fleet;
 mod intervals;
 mod model;
 mod pickle;
+mod prediction;
 mod registry;
 mod rls;
 mod run;

@@ -2,6 +2,7 @@
 
 use crate::arrays::{output, output_or_float, Input};
 use crate::errors::{heed_signals, raise};
+use crate::prediction::interval;
 use crate::run::Run;
 use crate::settings::{
     names, read_choices, read_optional, view, with_factor, write_description, write_health, Dtype,
@@ -244,22 +245,32 @@ impl Rls {
             .call_method1("gate_from_description", (self.describe(py)?, self.dtype()))
     }
 
-    /// phi @ theta.
+    /// phi @ theta; with a level the interval that holds the next measurement, too.
     ///
     /// Parameters
     /// ----------
     /// phi : (n,) or (T, n) array
+    /// level : float, optional
+    ///     Share of measurements that the interval holds, between 0 and 1; see `forgetting.predict`.
+    /// errors : (T,) array, optional
+    ///     One-step errors so far, of which the interval is then made.
     ///
     /// Returns
     /// -------
-    /// float, (targets,), (T,) or (T, targets)
+    /// float, (targets,), (T,) or (T, targets); with a level a `Prediction` of three
+    #[pyo3(signature = (phi, level=None, *, errors=None))]
     fn predict<'py>(
-        &self,
-        py: Python<'py>,
+        slf: &Bound<'py, Self>,
         phi: &Bound<'py, PyAny>,
+        level: Option<&Bound<'py, PyAny>>,
+        errors: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let phi = Input::read("phi", phi, self.number_type)?;
-        let estimator = self.estimator.lock(py)?;
+        if let Some(level) = level {
+            return interval(slf, phi, level, errors);
+        }
+        let (py, this) = (slf.py(), slf.get());
+        let phi = Input::read("phi", phi, this.number_type)?;
+        let estimator = this.estimator.lock(py)?;
         output_or_float(py, estimator.predict(phi.view("phi")?).map_err(raise)?)
     }
 
