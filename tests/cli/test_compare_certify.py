@@ -186,6 +186,44 @@ def test_rows_with_a_missing_value_keep_their_numbers(tmp_path, capsys):
     assert 215 < found["windup"]["sample"] < 230
 
 
+@pytest.mark.parametrize("rule", ["subspace", "exponential", "random_walk"])
+def test_a_prior_that_is_set_late_is_no_forgetting(rule, tmp_path, capsys):
+    """The input speaks at row 11: until then the prior of its parameter is not known."""
+    random = np.random.default_rng(3)
+    x = np.r_[np.zeros(10), 20 + random.normal(size=400)]
+    y = 1 + 0.5 * x + 0.1 * random.normal(size=410)
+    pd.DataFrame({"x": x, "y": y}).to_csv(tmp_path / "late.csv", index=False)
+    command = ["certify", str(tmp_path / "late.csv"), "-f", "y ~ x", "-r", rule, "--json"]
+    run(command)
+    found = json.loads(capsys.readouterr().out)
+    assert found["conditions"]["A1"]["verdict"] == "holds"
+    assert found["first_row_examined"] == 12
+
+
+def test_a_half_life_is_certified_as_the_factor_that_it_is(drifting, tmp_path, capsys):
+    frame = pd.read_csv(drifting)
+    frame.insert(0, "seconds", 0.5 * np.arange(len(frame)))
+    path = tmp_path / "timed.csv"
+    frame.to_csv(path, index=False)
+    command = ["certify", str(path), "-f", "y ~ x", "-r", "exponential", "--json"]
+    found = []
+    for more in (
+        ["-l", str(0.5 ** (1 / 64))],
+        ["--half-life", "64"],
+        ["--half-life", "32s", "--time", "seconds"],
+    ):
+        run([*command, *more])
+        found.append(json.loads(capsys.readouterr().out))
+    assert found[0]["excitation"] == found[1]["excitation"]
+    for each in found[1:]:
+        ours, others = each["stability"], found[0]["stability"]
+        assert ours["conclusions"] == others["conclusions"]
+        for name in ("observed_decrease", "lyapunov_decrease"):
+            assert ours[name] == pytest.approx(others[name], rel=1e-5)
+    assert run([*command, "--half-life", "64", "-l", "0.9"]) == 2
+    assert "--half-life goes without" in capsys.readouterr().err
+
+
 def test_bad_input_is_one_sentence(tmp_path, capsys):
     for command in ("compare", "certify"):
         assert run([command, str(tmp_path / "absent.csv"), "--formula", "y ~ x"]) == 2

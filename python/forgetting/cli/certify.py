@@ -11,7 +11,7 @@ from forgetting.cli import options
 from forgetting.cli.identify import check_targets
 from forgetting.cli.parse import parse_covariance
 from forgetting.cli.progress import progress_bar
-from forgetting.cli.rulebook import make_gate, make_rule
+from forgetting.cli.rulebook import check_half_life, make_gate, make_rule
 from forgetting.cli.source import show_record, told
 from forgetting.cli.tables import print_judgement, print_written, say
 
@@ -41,6 +41,8 @@ def certify(
     show: options.Show = False,
     rule: options.RuleName = "subspace",
     forgetting_factor: options.ForgettingFactor = None,
+    half_life: options.HalfLife = None,
+    by_clock: options.ByClock = False,
     rate: options.RateText = None,
     threshold: options.Threshold = None,
     settings: options.Settings = None,
@@ -61,18 +63,21 @@ def certify(
     if show:
         show_record(source())
         return 0
+    check_half_life(half_life, forgetting_factor, rate)
     made = make_rule(rule or "subspace", forgetting_factor, threshold, settings or [], rate)
     before, start = make_gate(gate), parse_covariance(initial_covariance)
+    timing: dict[str, Any] = {"half_life": half_life, "by_clock": by_clock}
     with progress_bar(f"certifying {record.name}") as progress:
         found = identify(
             source,
             **said,
             rule=made,
+            **timing,
             gate=before,
             initial_covariance=start,
             progress=progress,
         )
-    certificate, first = theory(found, made, before, start)
+    certificate, first = theory(found, made, before, start, **timing)
     if report is not None:
         from forgetting.report import save_certificate
 

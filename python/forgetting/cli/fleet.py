@@ -12,7 +12,7 @@ from forgetting.cli import options
 from forgetting.cli.fleet_tables import as_data, print_survey
 from forgetting.cli.parse import parse_covariance, parse_orders
 from forgetting.cli.progress import rate_bar
-from forgetting.cli.rulebook import make_gate, make_rule, rule_or_auto
+from forgetting.cli.rulebook import check_half_life, make_gate, make_rule, rule_or_auto
 from forgetting.cli.tables import print_written, say
 from forgetting.files import check_outputs, whole
 from forgetting.words.errors import RecordError
@@ -153,8 +153,7 @@ def fleet(
     from forgetting.tables.partitions import find
     from forgetting.tables.resumable import Work
 
-    if half_life is not None and (forgetting_factor is not None or rate is not None):
-        raise RecordError("--half-life goes without --forgetting-factor and --rate")
+    check_half_life(half_life, forgetting_factor, rate)
     if streams is not None and streams.suffix.lower() != ".parquet":
         raise RecordError(f"--streams writes .parquet, but got {streams.name!r}")
     partitions = find(data)

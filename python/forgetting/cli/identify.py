@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from forgetting.cli import options
 from forgetting.cli.parse import parse_covariance, parse_known
 from forgetting.cli.progress import progress_bar
-from forgetting.cli.rulebook import make_gate, rule_or_auto
+from forgetting.cli.rulebook import check_half_life, make_gate, rule_or_auto
 from forgetting.cli.source import show_record, told
 from forgetting.cli.tables import print_identification, print_written, say
 from forgetting.files import check_outputs
@@ -72,8 +72,7 @@ def identify(
         raise RecordError(f"--dtype is {dtype!r}; it must be float64 or float32")
     if show:
         return show_record(source())
-    if half_life is not None and (forgetting_factor is not None or rate is not None):
-        raise RecordError("--half-life goes without --forgetting-factor and --rate")
+    check_half_life(half_life, forgetting_factor, rate)
     chosen = rule_or_auto(rule, forgetting_factor, threshold, settings or [], rate)
     before = make_gate(gate)
     with progress_bar(f"identifying {record.name}") as progress:

@@ -56,6 +56,14 @@ def rule_or_auto(
     return make_rule(name or "subspace", forgetting_factor, threshold, settings, rate)
 
 
+def check_half_life(
+    half_life: str | None, forgetting_factor: float | None, rate: str | None
+) -> None:
+    """Refuse a half-life beside what it takes the place of."""
+    if half_life is not None and (forgetting_factor is not None or rate is not None):
+        raise RecordError("--half-life goes without --forgetting-factor and --rate")
+
+
 def make_gate(text: str | None) -> Any:
     """Make the gate of ``name:parameter=value,...``; None without a gate."""
     if text is None:

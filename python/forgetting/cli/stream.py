@@ -12,7 +12,7 @@ import typer
 
 from forgetting.cli import options
 from forgetting.cli.parse import parse_covariance, parse_known, parse_orders
-from forgetting.cli.rulebook import make_gate, rule_or_auto
+from forgetting.cli.rulebook import check_half_life, make_gate, rule_or_auto
 from forgetting.files import check_outputs
 from forgetting.words.errors import RecordError
 
@@ -119,8 +119,7 @@ def stream(
     from forgetting.stream.stream import Stream
 
     check_options(to, dtype, save_every, source, follow, state)
-    if half_life is not None and (forgetting_factor is not None or rate is not None):
-        raise RecordError("--half-life goes without --forgetting-factor and --rate")
+    check_half_life(half_life, forgetting_factor, rate)
     told = made_settings(
         formula=formula,
         output=tuple(output or ()),

@@ -7,6 +7,7 @@ by `forgetting.record.judge`.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,8 +16,9 @@ from numpy.typing import ArrayLike, NDArray
 
 import forgetting as fg
 from forgetting.analysis import Certificate, certify
+from forgetting.record.half_life import LastTime, with_time
 from forgetting.record.identification import Identification
-from forgetting.record.moved import as_run
+from forgetting.record.moved import Moved, as_run
 from forgetting.record.origin import origin
 from forgetting.record.samples import Samples, pieces
 
@@ -82,19 +84,45 @@ def begin(samples: Samples) -> int:
     return min(int(settled), len(samples.y) // 2)
 
 
+def with_units(samples: Moved) -> int:
+    """Rows after which every regressor has been other than 0, but for those that never are.
+
+    Where P follows the data, the prior of a parameter is set when its regressor first speaks: P
+    jumps there, without anything being forgotten.
+
+    Examples
+    --------
+    >>> phi = np.array([[1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 5.0, 0.0], [1.0, 6.0, 0.0]])
+    >>> with_units(Moved(Samples(phi, phi[:, :1], ("1", "I", "T"), ("y",), "", None, "")))
+    3
+    """
+    first = np.full(samples.parameters, -1)
+    complete = samples.samples.complete
+    for part in pieces(len(samples)):
+        phi, _ = samples.rows(part)
+        speaks = (phi != 0) & complete[part, None]
+        new = (first < 0) & speaks.any(axis=0)
+        first[new] = part.start + speaks[:, new].argmax(axis=0)
+        if (first >= 0).all():
+            break
+    return int(first.max()) + 1
+
+
 def theory(
     found: Identification,
     rule: Any,
     gate: Any = None,
     initial_covariance: ArrayLike | None = None,
     dtype: str = "float64",
+    half_life: Any = None,
+    by_clock: bool = False,
 ) -> tuple[Certificate, int]:
     """Run the identification again, and check the conditions of Theorem 2 along it.
 
     Parameters
     ----------
     found : Identification
-    rule, gate, initial_covariance, dtype
+    rule, gate, initial_covariance, dtype, half_life, by_clock
         As given to `forgetting.record.identify`; `rule` is no bank.
 
     Returns
@@ -106,7 +134,10 @@ def theory(
     """
     samples = origin(found.samples, moves=initial_covariance is None).moved(found.samples)
     n, total = samples.parameters, len(samples)
+    rule, time = with_time(rule, half_life, by_clock, found.samples)
     start = max(begin(found.samples), total - max(MOST // n**2, 2 * n))
+    if initial_covariance is None:
+        start = max(start, min(with_units(samples), total - 2 * n))
     estimator = fg.RLS(
         n,
         rule=rule,
@@ -115,20 +146,30 @@ def theory(
         initial_covariance=initial_covariance,
         dtype=dtype,
     )
+    last = LastTime()
+
+    def learn(rows: slice, regressors: Array, outputs: Array, wanted: Sequence[str]) -> Any:
+        phi, y = as_run(regressors, outputs, dtype)
+        when = None if time is None else last.ahead_of(time[rows])
+        run = estimator.run(phi, y, outputs=wanted, missing="skip", time=when)
+        if time is not None:
+            last.note(time[rows], found.samples.complete[rows])
+        return run
+
     for part in pieces(start):
-        phi, y = as_run(*samples.rows(part), dtype)
-        estimator.run(phi, y, outputs=(), missing="skip")
+        learn(part, *samples.rows(part), ())
     known = start > 0 or initial_covariance is not None
     scale = np.outer(found.units, found.units)
     before = np.asarray(estimator.covariance, dtype=np.float64) * scale if known else None
-    regressors, outputs = samples.rows(slice(start, None))
-    phi, y = as_run(regressors, outputs, dtype)
+    rest = slice(start, None)
+    regressors, outputs = samples.rows(rest)
     made = certify(
         # of the run itself nothing is kept: all P are there in units alone
-        in_units(estimator.run(phi, y, outputs=OUTPUTS, missing="skip"), scale),
+        in_units(learn(rest, regressors, outputs, OUTPUTS), scale),
         regressors / found.units,
         initial_covariance=before,
-        rule=rule if initial_covariance is not None else None,
+        # what a rule guarantees is stated for one step of time after the other
+        rule=rule if initial_covariance is not None and time is None else None,
         names=list(samples.regressors),
     )
     return made, start
