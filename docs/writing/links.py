@@ -75,10 +75,15 @@ def dead(root: Path) -> Iterator[str]:
             target = target / "index.html" if target.is_dir() else target
             if not target.exists():
                 yield f"{name} links to {address}: there is no such file"
-            elif parts.fragment and target.suffix == ".html":
+            elif is_place(parts.fragment) and target.suffix == ".html":
                 known = pages.get(target)
                 if known is None or unquote(parts.fragment) not in known.anchors:
                     yield f"{name} links to {address}: there is no such place on that page"
+
+
+def is_place(fragment: str) -> bool:
+    """Whether a fragment is a place on a page, and not settings such as ``rule=subspace``."""
+    return bool(fragment) and "=" not in fragment
 
 
 def parsed(path: Path) -> Page:

@@ -8,7 +8,7 @@ from writing.links import dead
 ELSEWHERE = '<a href="https://example.org/x">a site</a><a href="mailto:a@example.org">a</a>'
 ALIVE = (
     '<p id="here"><a href="#here">here</a> <a href="sub/">folder</a>'
-    '<a href="sub/b.html#there">b</a>'
+    '<a href="sub/b.html#there">b</a><a href="sub/b.html#rule=none&level=2">settings</a>'
     '<img src="a%20b.png"><img src="data:image/png;base64,AA"></p>' + ELSEWHERE
 )
 
