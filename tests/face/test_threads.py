@@ -167,7 +167,10 @@ CALLS = [
         "est = fg.RLS(900); phi = np.random.randn(6_000, 900)",
         "est.run(phi, np.ones(6_000), outputs=())",
     ),
-    ("est = fg.Bank(8); phi = np.random.randn(800_000, 8)", "est.run(phi, phi[:, 0], outputs=())"),
+    (
+        "est = fg.Bank(8); phi = np.tile(np.random.randn(100_000, 8), (30, 1))",
+        "est.run(phi, phi[:, 0], outputs=())",
+    ),
     ("est = fg.Fleet(100_000, 8)", "[est._states() for _ in range(100)]"),
 ]
 

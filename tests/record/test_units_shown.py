@@ -87,6 +87,6 @@ def test_a_long_record_is_certified_on_its_end(cell, monkeypatch, tmp_path):
     save_certificate(found, certificate, first, tmp_path / "c.html")
     monkeypatch.undo()
     whole, first = theory.theory(found, "exponential")
-    assert first == 0
+    assert first == 3  # the inputs speak, and have their priors
     ends = [each.conditions.trajectory.after[-1] for each in (certificate, whole)]
     np.testing.assert_allclose(ends[0], ends[1], rtol=1e-9)
