@@ -276,7 +276,7 @@ impl<M: Memory> State<M::Real> for Pending<M> {
             && added.iter().all(|&x| x >= M::Real::ZERO)
             && total <= M::Real::CEILING
             && dot(measured, measured) <= M::Real::CEILING
-            && (total == M::Real::ZERO || self.spectrum.is_spectrum())
+            && (total == M::Real::ZERO && !self.spectrum.is_known() || self.spectrum.is_spectrum())
     }
 }
 
