@@ -149,6 +149,9 @@ impl<M: Memory> Spectrum<M> {
         } else if active > 1 && !self.update(active) {
             self.age = 0; // out of range: compute it from P at the next sample
         }
+        if !self.is_spectrum() {
+            self.age = 0; // it came from a saved state that was altered
+        }
     }
 
     /// The same for every row of a whitened sample, n numbers each.
