@@ -162,7 +162,7 @@ def test_two_outputs_are_refused_before_the_work(forgetting, battery, tmp_path):
 
 def test_many_regressors_take_seconds_not_minutes(forgetting, tmp_path):
     rng = np.random.default_rng(0)
-    frame = pd.DataFrame(rng.normal(size=(600, 80)), columns=[f"x{k}" for k in range(80)])
+    frame = pd.DataFrame(rng.normal(size=(600, 150)), columns=[f"x{k}" for k in range(150)])
     frame.assign(y=frame.sum(axis=1)).to_parquet(tmp_path / "wide.parquet")
     terms = " + ".join(frame.columns)
     run = forgetting("identify", tmp_path / "wide.parquet", "-f", f"y ~ 0 + {terms}", "--json")

@@ -8,9 +8,9 @@ from forgetting.polynomials import PolynomialModel, Structure
 
 from .systems import model, random_covariance
 
-DRAWS = 800
+DRAWS = 1500
 MONTE_CARLO = 0.1
-"""Relative error of a standard deviation from so many draws, 1/√(2 DRAWS) = 0.025, four times."""
+"""Relative error of a standard deviation from so many draws, 1/√(2 DRAWS) = 0.018, five times."""
 SMALL = 2e-4
 """Standard deviation of the parameters: so small that only the first order is left."""
 

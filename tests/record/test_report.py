@@ -109,6 +109,14 @@ def test_the_page_of_a_rule_shows_its_forgetting_factor(plant, tmp_path):
     assert "forgetting factor" in text and "memory (samples)" not in text
 
 
+def test_long_records_stay_small(tmp_path):
+    rng = np.random.default_rng(6)
+    frame = pd.DataFrame(rng.normal(size=(60_000, 6)), columns=list("abcdef"))
+    frame["y"] = frame.sum(axis=1) + rng.normal(size=60_000)
+    save(identify(frame, formula="y ~ a + b + c + d + e + f"), tmp_path / "long.html")
+    assert (tmp_path / "long.html").stat().st_size < 3_000_000
+
+
 def test_names_are_escaped(html):
     assert "<b>u1</b>" not in html and "&lt;b&gt;u1&lt;/b&gt; &amp; co(k)" in html
 

@@ -131,7 +131,9 @@ class Trajectory:
         gamma : optional
             The weighting given to the run.
         initial_covariance : scalar, (n,) or (n, n), optional
-            P_0. Without it the trajectory starts at sample 1.
+            P_0. Without it the trajectory starts at sample 1. Where P followed the data, give rows
+            from behind the first one in which each regressor has been other than 0: the prior of
+            its parameter is set there, which changes P and is no forgetting.
         """
         phibar = weighted(regressors, gamma)
         phibar = _without_skipped(phibar, getattr(run, "skipped", None))

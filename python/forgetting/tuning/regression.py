@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from forgetting.models.lags import regressors
+from forgetting.models.orders import Orders
 from forgetting.tuning.problem import Array, Mask
 
 
@@ -56,3 +58,16 @@ class Regression:
         """See `Problem`."""
         phi, y = self.moved
         return Regression(self.phi[rows], self.y[rows], (phi[rows], y[rows]))
+
+
+def of_lags(orders: Orders, inputs: Array, outputs: Array, offset: bool = False) -> Regression:
+    """The regression of an ARX model on arrays (T, inputs) and (T, outputs).
+
+    Examples
+    --------
+    >>> of_lags(Orders(1, 1, 0), np.ones((3, 1)), np.ones((3, 1)), offset=True).parameters
+    3
+    """
+    phi = regressors(inputs, outputs, orders)
+    phi = np.hstack([phi, np.ones((len(phi), 1))]) if offset else phi
+    return Regression(phi, outputs, (phi, outputs))

@@ -8,14 +8,13 @@ from numpy.typing import ArrayLike
 
 from forgetting._core import InvalidInput
 from forgetting.frames.channels import channels, paired
-from forgetting.models.lags import regressors
 from forgetting.models.orders import Orders
 from forgetting.tuning.candidate import Candidate
 from forgetting.tuning.choose import SHARE, choose
 from forgetting.tuning.code import estimator_code, model_code
 from forgetting.tuning.orders import USUAL_NA, order_grid, widest
 from forgetting.tuning.problem import Problem
-from forgetting.tuning.regression import Regression
+from forgetting.tuning.regression import Regression, of_lags
 from forgetting.tuning.result import Lines, Tuning
 from forgetting.tuning.runner import Progress
 from forgetting.tuning.structures import ModelOrders
@@ -162,8 +161,7 @@ def tune_arx(
 
     def make(orders: ModelOrders | None) -> Problem:
         assert isinstance(orders, Orders)
-        phi = regressors(inputs, outputs, orders)
-        return Regression(phi, outputs, (phi, outputs))
+        return of_lags(orders, inputs, outputs)
 
     return choose(
         make,

@@ -9,13 +9,13 @@ from numpy.typing import ArrayLike
 
 from forgetting._core import InvalidInput
 from forgetting.frames.channels import paired
-from forgetting.models.lags import Array, regressors
+from forgetting.models.lags import Array
 from forgetting.models.named import NamedModel
 from forgetting.models.orders import Orders
 from forgetting.tuning.choose import SHARE, choose
 from forgetting.tuning.code import model_code
 from forgetting.tuning.problem import Problem
-from forgetting.tuning.regression import Regression
+from forgetting.tuning.regression import of_lags
 from forgetting.tuning.result import Lines, Tuning
 from forgetting.tuning.runner import Progress
 from forgetting.tuning.signals import Signals
@@ -86,7 +86,7 @@ def tune_model(
         if isinstance(orders, NamedModel):
             return signals(orders, inputs, outputs, offset)
         assert isinstance(orders, Orders)
-        return regression(orders, inputs, outputs, offset)
+        return of_lags(orders, inputs, outputs, offset)
 
     return choose(
         make,
@@ -100,13 +100,6 @@ def tune_model(
         threads=threads,
         progress=progress,
     )
-
-
-def regression(orders: Orders, inputs: Array, outputs: Array, offset: bool) -> Regression:
-    """The samples of an ARX model."""
-    phi = regressors(inputs, outputs, orders)
-    phi = np.hstack([phi, np.ones((len(phi), 1))]) if offset else phi
-    return Regression(phi, outputs, (phi, outputs))
 
 
 def signals(named: NamedModel, inputs: Array, outputs: Array, offset: bool) -> Signals:
