@@ -16,7 +16,7 @@ from forgetting.models.estimator import new_estimator
 from forgetting.models.identified import identified
 from forgetting.models.lags import names, regressors
 from forgetting.models.mean_square import MEMORY, MeanSquare
-from forgetting.models.orders import Orders, OrdersByInput, per_input
+from forgetting.models.orders import Orders, per_input
 from forgetting.models.simulation import free_run
 from forgetting.models.uncertainty import leverage, of_noise, of_parameters, root_of
 from forgetting.polynomials import PolynomialModel, Structure
@@ -310,8 +310,8 @@ class ARX(Constructor):
             sample_time=sample_time,
         )
 
-    def _orders(self, inputs: Array) -> Orders | OrdersByInput:
-        orders = orders_of(self.na, self.nb, self.nk, inputs.shape[1])
+    def _orders(self, inputs: Array) -> Orders:
+        orders = Orders(self.na, self.nb, self.nk)
         if (orders.nb != 0) != (inputs.shape[1] > 0):
             given = f"{inputs.shape[1]} input(s)"
             raise InvalidInput(f"nb is {orders.nb} but u has {given}; nb = 0 goes with u = None")
@@ -321,7 +321,7 @@ class ARX(Constructor):
         self,
         estimator: Any,
         noise: MeanSquare,
-        orders: Orders | OrdersByInput,
+        orders: Orders,
         inputs: Array,
         outputs: Array,
         skip: int = 0,
@@ -339,11 +339,11 @@ class ARX(Constructor):
         self.estimator_, self._noise = estimator, noise
         return int(run.used)
 
-    def _phi(self, inputs: Array, outputs: Array, orders: Orders | OrdersByInput) -> Array:
+    def _phi(self, inputs: Array, outputs: Array, orders: Orders) -> Array:
         phi = regressors(inputs, outputs, orders)
         return np.hstack([phi, np.ones((len(phi), 1))]) if self.offset else phi
 
-    def _remember(self, orders: Orders | OrdersByInput, inputs: Array, outputs: Array) -> None:
+    def _remember(self, orders: Orders, inputs: Array, outputs: Array) -> None:
         start = max(0, len(outputs) - orders.reach)
         self._tail = inputs[start:].copy(), outputs[start:].copy()
 
@@ -392,12 +392,3 @@ class ARX(Constructor):
         if not hasattr(self, "estimator_"):
             raise AttributeError(f"{name} exists after fit or partial_fit")
         return self.estimator_
-
-
-def orders_of(
-    na: int, nb: int | Sequence[int], nk: int | Sequence[int], inputs: int
-) -> Orders | OrdersByInput:
-    """The orders of a model of so many inputs, the same for all of them or not."""
-    if not isinstance(nb, Sequence) and not isinstance(nk, Sequence):
-        return Orders(na, nb, nk)
-    return OrdersByInput(na, per_input("nb", nb, inputs), per_input("nk", nk, inputs))
