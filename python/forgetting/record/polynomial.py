@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from forgetting._core import InvalidInput, structures
-from forgetting.models.named import NamedModel, in_text
+from forgetting.models.named import NamedModel
+from forgetting.models.orders import Each, in_text
 from forgetting.models.signal_origin import first_values
 from forgetting.record.dynamics import columns, refuse_repeats, stretches
 from forgetting.record.read import Record
@@ -158,8 +159,8 @@ def learned(
 
 
 def which(
-    formula: str | None, arx: Sequence[int] | None, model: str | None
-) -> tuple[Sequence[int] | None, NamedModel | None]:
+    formula: str | None, arx: Sequence[Each] | None, model: str | None
+) -> tuple[Sequence[Each] | None, NamedModel | None]:
     """What the model is: ARX orders, or a model that is not linear in its parameters, or neither.
 
     Examples
@@ -202,9 +203,6 @@ def described(named: NamedModel, output: str, inputs: Sequence[str]) -> str:
     """
     made = named.make()
     orders = {order: getattr(made, order) for order in structures()[named.name][1]}
-    each = (
-        f"{order}={in_text(tuple(value) if isinstance(value, list) else value)}"
-        for order, value in orders.items()
-    )
+    each = (f"{order}={in_text(value)}" for order, value in orders.items())
     words = f"{named.name.upper()}({', '.join(each)})"
     return f"{words} of {output}" + (f" on {', '.join(inputs)}" if inputs else "")
