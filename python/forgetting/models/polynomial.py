@@ -13,12 +13,15 @@ from forgetting.frames import read, shaped_like
 from forgetting.frames.channels import channel_names, channels, paired
 from forgetting.models.constructor import Constructor
 from forgetting.models.estimator import new_estimator
+from forgetting.models.gradient import Coefficients
 from forgetting.models.identified import identified
+from forgetting.models.interval import Learned
 from forgetting.models.layout import Layout
 from forgetting.models.mean_square import MEMORY, MeanSquare
 from forgetting.models.orders import per_input, whole
 from forgetting.models.signal_origin import SignalOrigin, first_values
 from forgetting.polynomials import PolynomialModel, Structure
+from forgetting.prediction import Prediction, around, quantile
 
 Array = NDArray[np.float64]
 
@@ -122,16 +125,27 @@ class Polynomial(Constructor):
         kept = model.learn(estimator, inputs, measured, outputs)
         return {name: kept[name] for name in kept if name != "used"}
 
-    def predict(self, u: ArrayLike | None, y: ArrayLike) -> Any:
+    def predict(self, u: ArrayLike | None, y: ArrayLike, level: float | None = None) -> Any:
         """Predict each y(k) one step ahead, from everything before it and the final theta.
 
         The run starts at rest. Returns an array shaped like y, of pandas and xarray with their
-        index; NaN in the first rows, whose lags are from before the record.
+        index; NaN in the first rows, whose lags are from before the record. With a level a
+        `Prediction` of three, the interval that holds this share of y(k): see `forecast`. Where
+        outputs before are missing it is as wide as they leave it.
         """
         inputs, outputs = self._checked(u, y)
         predicted = np.asarray(self._model.predict(inputs, outputs))
-        predicted[: self.reach] = np.nan
-        return shaped_like(read("y", y), predicted if np.ndim(y) == 1 else predicted[:, None])
+        shown = predicted.copy()
+        shown[: self.reach] = np.nan
+
+        def like(values: Array) -> Any:
+            return shaped_like(read("y", y), values if np.ndim(y) == 1 else values[:, None])
+
+        if level is None:
+            return like(shown)
+        z = quantile(level)
+        deviation = self._known().of_record(inputs, outputs, predicted)
+        return Prediction(*map(like, around(shown, deviation, z)))
 
     def simulate(self, u: ArrayLike | int, y_start: ArrayLike | None = None) -> Array:
         """Run the model freely from rest: no measured output, no noise.
@@ -158,22 +172,40 @@ class Polynomial(Constructor):
         simulated[: len(start)] = start
         return simulated
 
-    def forecast(self, u: ArrayLike | int) -> Array:
+    def forecast(self, u: ArrayLike | int, level: float | None = None) -> Any:
         """Predict the outputs of the next samples, going on from the last one that was learned.
 
         Parameters
         ----------
         u : array_like, shape (steps,) or (steps, inputs), or int
             The inputs to come; for a model without inputs how many steps.
+        level : float, optional
+            Share of outputs that an interval about each is to hold, between 0 and 1.
 
         Returns
         -------
         ndarray, shape (steps,)
+            With a level a `Prediction` of three such arrays, value, lower and upper.
+
+        Raises
+        ------
+        InvalidInput
+            For a missing value in u; with a level also for one in the last rows that were learned.
+
+        Notes
+        -----
+        The interval has the noise to come, normal and white before C/(A D), and the uncertainty of
+        the parameters by the delta method, their covariance being that of P; of a bank
+        (``rule="auto"``) the mean square of its errors alone. Inputs are supposed to be known.
         """
         self._check_is_fitted()
         inputs = self._inputs_of_run(u)
         nothing = np.full(len(inputs), np.nan)
-        return np.asarray(self._model.predict(inputs, nothing, from_rest=False))
+        value = np.asarray(self._model.predict(inputs, nothing, from_rest=False))
+        if level is None:
+            return value
+        z = quantile(level)
+        return around(value, self._known().to_come(inputs, value), z)
 
     def model(self, theta: ArrayLike | None = None, *, sample_time: float = 1.0) -> PolynomialModel:
         """Return what was identified as a model: poles, gains, responses, tests of its residuals.
@@ -225,7 +257,10 @@ class Polynomial(Constructor):
 
     @property
     def noise_variance_(self) -> float:
-        """Variance of e, over up to the last thousand samples; NaN while there are too few."""
+        """Variance of e, over up to the last thousand samples; NaN while there are too few.
+
+        The mean square of errors, each counting as much as its sample: less at the start.
+        """
         return float(self._learned("noise_variance_", "_noise").value[0])
 
     @property
@@ -261,6 +296,15 @@ class Polynomial(Constructor):
         each = [(nb, nf) for nb, nf, _ in orders["inputs"]]
         return Layout.of(orders["na"], each, orders["nc"] + orders["nd"])
 
+    def _known(self) -> Learned:
+        """What was learned, in the signals that the estimator was given."""
+        theta, origin = self.theta_, self.origin(self._first)
+        measured = theta if origin is None else origin.take(theta)
+        first = np.nan_to_num(self._first) * self.offset
+        own = Coefficients.of(measured, self._orders(self.n_inputs_), self.offset)
+        known = self._model, self.estimator_, self.noise_variance_
+        return Learned(*known, measured, first, own)
+
     def _start(self, inputs: int) -> tuple[SignalModel, RLS | Bank]:
         model = self.at_rest(inputs)
         estimator = new_estimator(
@@ -286,9 +330,9 @@ class Polynomial(Constructor):
     def _learn(
         self, model: SignalModel, estimator: Any, noise: MeanSquare, inputs: Array, outputs: Array
     ) -> int:
-        kept = model.learn(estimator, inputs, outputs, outputs="error")
-        errors = kept["error"]
-        noise.add(errors[~np.isnan(errors), None] ** 2)
+        kept = model.learn(estimator, inputs, outputs, outputs=("error", "scale"))
+        errors, known = kept["error"], ~np.isnan(kept["error"])
+        noise.add(errors[known, None] ** 2, kept["scale"][known] ** 2)
         return int(kept["used"])
 
     def _signals(self, u: ArrayLike | None, y: ArrayLike) -> tuple[Array, Array]:
