@@ -76,7 +76,7 @@ def print_identification(found: Identification) -> None:
     if found.memories is not None:
         out.print(escape(found.memories.describe()), "\n")
     out.print(scores(found))
-    for sentence in found.intervals.describe(samples.outputs) if found.intervals else ():
+    for sentence in found.about_intervals():
         out.print(escape(sentence), "\n")
     out.print(f"samples     {len(samples.y)}: {found.used} used, {found.left_out()}")
     for change in found.changes[:CHANGES]:

@@ -15,6 +15,7 @@ from forgetting.analysis import Excited, Guarantee, guaranteed_bounds
 from forgetting.files import check_outputs
 from forgetting.judgement import Judgement
 from forgetting.record import estimates
+from forgetting.record.ahead import Ahead
 from forgetting.record.changes import Change, changes
 from forgetting.record.counts import Counts
 from forgetting.record.drift import Drift, claim, drift
@@ -66,6 +67,8 @@ class Identification(Counts):
         What was known of parameters before. Those that are fixed are not among the regressors.
     level : float or None
         Of the intervals about one-step predictions, where they were asked for.
+    ahead : Ahead or None
+        Forecasts many steps ahead and what their intervals held, where they were asked for.
     """
 
     samples: Samples
@@ -79,6 +82,7 @@ class Identification(Counts):
     members: list[Any]
     known: Known = field(default_factory=Known)
     level: float | None = None
+    ahead: Ahead | None = None
 
     @cached_property
     def noise_variance(self) -> Array:
@@ -160,6 +164,11 @@ class Identification(Counts):
     def intervals(self) -> OneStep | None:
         """Intervals about one-step predictions, and their coverage; None without a level."""
         return None if self.level is None else OneStep(self.trace, self.level)
+
+    def about_intervals(self) -> list[str]:
+        """What intervals held, one step ahead and many, in sentences; none without a level."""
+        one_step = self.intervals.describe(self.samples.outputs) if self.intervals else []
+        return [*one_step, *(self.ahead.describe() if self.ahead else [])]
 
     @cached_property
     def changes(self) -> list[Change]:
@@ -279,6 +288,7 @@ class Identification(Counts):
             "read_as": self.samples.found.to_dict(),
             "clock": self.samples.clock_as_data(),
             "intervals": self.intervals and self.intervals.to_dict(self.samples.outputs),
+            "ahead": self.ahead and self.ahead.to_dict(),
             "noise": dict(zip(self.samples.outputs, self.noise.tolist(), strict=True)),
             "memory": self.memory,
             "memories": None if self.memories is None else self.memories.to_dict(),

@@ -116,8 +116,7 @@ def scores(found: Identification) -> Block:
         f"{result.samples} samples for all three. Each prediction is made before its sample is "
         f"learned."
     )
-    if found.intervals is not None:
-        text = " ".join([text, *found.intervals.describe(found.samples.outputs)])
+    text = " ".join([text, *found.about_intervals()])
     header = ("output", "this model", "same model, no forgetting", "last value repeated")
     return Block("One-step prediction", text, Table(header, rows))
 
