@@ -91,6 +91,12 @@ LONG = 4000
 """Rows from which on a record has a long run; those that are shorter have some thousand."""
 
 
+def noiseless(u, y):
+    """Whether more than a twentieth of the errors is nothing but rounding: no share holds there."""
+    error = fg.forecasts(fg.ARX(2, 2, 1), u, y, horizons=1).error[18:]
+    return np.mean(np.abs(error) < 1e-9 * np.abs(y).max()) > 0.05
+
+
 @pytest.mark.skipif(not RECORDS.is_dir(), reason="the measured records are not here")
 @pytest.mark.parametrize(
     "model",
@@ -104,6 +110,8 @@ def test_measured_records_hold_the_level(model):
         if found.clock is not None:
             names.remove(found.clock.name)
         y, u = columns(found, names[-1:])[:LONG], columns(found, names[:-1])[:LONG]
+        if noiseless(u, y):
+            continue
         made = fg.forecasts(model, u, y, level=0.9)
         for horizon, each in made.coverage().items():
             off = 0.01 if len(y) == LONG else 0.025
