@@ -86,8 +86,9 @@ print(f", in the weeks of the closure {inside[closed].mean():.1%}")
 # %%
 # Whoever trades within the day forecasts every hour anew. With the load of the hour before among
 # the regressors the memory of the noise is used, and the next hours are known better than those of
-# tomorrow. `forgetting.forecasts` makes all of these forecasts, with a tracker for each horizon, and
-# says what the intervals held beside those that take the noise for white, normal and of one size.
+# tomorrow. `forgetting.forecasts` makes all of these forecasts, with a tracker for each horizon,
+# and says what the intervals held beside those that take the noise for white, normal and of one
+# size.
 hourly = fg.ARX(na=1, nb=1, nk=0, offset=True)
 print(fg.forecasts(hourly, phi[:, 1:], load, horizons=[1, 6, 24], level=0.9))
 
