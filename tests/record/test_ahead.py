@@ -12,6 +12,7 @@ from typer.testing import CliRunner
 import forgetting as fg
 from forgetting.cli.app import app
 from forgetting.record import identify
+from forgetting.record.ahead import about_intervals
 from forgetting.words.errors import RecordError
 
 
@@ -40,7 +41,7 @@ def test_the_share_inside_is_the_level(plant, model, rule):
         assert each["steps"] == steps
         assert each["conformal"] == pytest.approx(0.9, abs=0.01)
         assert each["half_width"] > 0.4
-    assert len(found.about_intervals()) == 3
+    assert len(about_intervals(found)) == 3
 
 
 def test_one_step_is_the_prediction(plant):

@@ -17,8 +17,8 @@ from forgetting._core import InvalidInput
 from forgetting.models.forecasts import Forecasts, aligned, checked
 from forgetting.models.foreseen import by_equation, of_signals
 from forgetting.models.named import NamedModel
-from forgetting.models.orders import Orders
-from forgetting.record.dynamics import columns, stretches
+from forgetting.models.orders import Orders, OrdersByInput
+from forgetting.record.dynamics import checked_orders, columns, stretches
 from forgetting.record.intervals import without_swollen
 from forgetting.record.polynomial import recorded
 from forgetting.record.read import Record
@@ -45,9 +45,10 @@ class Ahead:
 
     def describe(self) -> list[str]:
         """A sentence for each horizon."""
+        level = f"the {self.forecasts.level:.4g} interval"
         return [
-            f"Of the forecasts of {self.output} {steps} samples ahead {held['conformal']:.1%} are "
-            f"within the {self.forecasts.level:.4g} interval that follows their errors, "
+            f"Of the forecasts of {self.output} {steps} sample{'s' * (steps > 1)} ahead "
+            f"{held['conformal']:.1%} are within {level} that follows their errors, "
             f"{held['noise']:.1%} within that of the noise; root mean square error "
             f"{held['root_mean_square']:.4g}."
             for steps, held in self.forecasts.coverage().items()
@@ -70,31 +71,29 @@ class Asked:
     output : str
     horizons : tuple of int
     level : float
-    orders : Orders or None
-        Of a model by arx, with its signals in stretches.
+    model : Orders, OrdersByInput or Signals
+        Of a model by arx its orders; of another its signals.
     parts : list of (slice, u, y)
-    signals : Signals or None
-        Of another model.
+        Of a model by arx: the stretches of the record, with their signals.
     """
 
     output: str
     horizons: tuple[int, ...]
     level: float
-    orders: Orders | None
+    model: Orders | OrdersByInput | Signals
     parts: list[tuple[slice, Array, Array]]
-    signals: Signals | None
 
     def answer(self, trace: Trace) -> Ahead:
         """The forecasts by the estimates of a run."""
-        found = self._by_arx(trace) if self.signals is None else self._by_signals(self.signals)
+        own = self.model
+        found = self._by_signals(own) if isinstance(own, Signals) else self._by_arx(own, trace)
         return Ahead(self.output, found)
 
-    def _by_arx(self, trace: Trace) -> Forecasts:
-        assert self.orders is not None
+    def _by_arx(self, orders: Orders | OrdersByInput, trace: Trace) -> Forecasts:
         noise = noise_variance(without_swollen(trace))[:, 0]
         steps = max(self.horizons)
         parts = [
-            by_equation(trace.theta[rows, :, 0], u, y, self.orders, steps, noise[rows])
+            by_equation(trace.theta[rows, :, 0], u, y, orders, steps, noise[rows])
             for rows, u, y in self.parts
         ]
         return aligned(parts, self.horizons, self.level)
@@ -129,7 +128,7 @@ def asked(
     arx, named = model
     if level is None:
         raise RecordError("say the level of the intervals about forecasts, such as 0.95")
-    if arx is None and named is None:
+    if named is None and arx is None:
         raise RecordError(
             "forecasts ahead are of models by arx or by a structure, not by a formula"
         )
@@ -137,12 +136,17 @@ def asked(
         raise RecordError(f"forecasts ahead are of one output; {len(outputs)} columns are named")
     try:
         horizons = checked(steps, level)
-        orders = None if arx is None else Orders(*arx)
     except InvalidInput as error:
         raise RecordError(str(error)) from None
     if named is not None:
         signals = recorded(record, outputs, inputs, named, **settings).signals
-        return Asked(outputs[0], horizons, level, None, [], signals)
+        return Asked(outputs[0], horizons, level, signals, [])
     y, u = columns(record, outputs)[:, 0], columns(record, inputs)
     parts = [(part, u[part], y[part]) for part in stretches(record)]
-    return Asked(outputs[0], horizons, level, orders, parts, None)
+    return Asked(outputs[0], horizons, level, checked_orders(arx or (), inputs), parts)
+
+
+def about_intervals(found: Any) -> list[str]:
+    """What the intervals of an identification held, in sentences; none without a level."""
+    told = found.intervals.describe(found.samples.outputs) if found.intervals else []
+    return [*told, *(found.ahead.describe() if found.ahead else [])]

@@ -68,7 +68,7 @@ class Identification(Counts):
     level : float or None
         Of the intervals about one-step predictions, where they were asked for.
     ahead : Ahead or None
-        Forecasts many steps ahead and what their intervals held, where they were asked for.
+        Forecasts many steps ahead, where they were asked for.
     """
 
     samples: Samples
@@ -164,11 +164,6 @@ class Identification(Counts):
     def intervals(self) -> OneStep | None:
         """Intervals about one-step predictions, and their coverage; None without a level."""
         return None if self.level is None else OneStep(self.trace, self.level)
-
-    def about_intervals(self) -> list[str]:
-        """What intervals held, one step ahead and many, in sentences; none without a level."""
-        one_step = self.intervals.describe(self.samples.outputs) if self.intervals else []
-        return [*one_step, *(self.ahead.describe() if self.ahead else [])]
 
     @cached_property
     def changes(self) -> list[Change]:
@@ -274,13 +269,12 @@ class Identification(Counts):
 
     def summary(self) -> dict[str, Any]:
         """What `forgetting identify` prints, for JSON: None where a number is not finite."""
-        rows = self.parameters.to_dict("records")
         ends = self.trace.eigenvalues[-1]
         found = {
             "record": self.samples.source,
             "model": self.samples.model,
             "rule": self.rule_in_words,
-            "parameters": rows,
+            "parameters": self.parameters.to_dict("records"),
             "known": self.known.to_dict() if self.known else None,
             "uncertainty": self.uncertainty,
             "drift": None if self.drift is None else self.drift.to_dict(),
