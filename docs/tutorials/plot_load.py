@@ -72,12 +72,36 @@ for name, made in forecast.items():
     print(f", in the weeks of the closure {np.sqrt(np.mean((made - load)[closed] ** 2)):5.2f} MW")
 
 # %%
-# A week of it, in October.
+# How far will the load be from the forecast? At midnight the errors of the day before are known: a
+# tracker for each hour of the day learns from them how wide its interval must be. It supposes
+# nothing of the noise, and the share inside is the level, in the weeks of the closure, too.
+half_width = np.full(hours.size, np.nan)
+error = load - forecast["bank"]
+for each in range(24):
+    half_width[each::24] = fg.Intervals(0.9, skip=28).run(error[each::24])
+inside = np.abs(error) <= half_width
+print(f"within the intervals of 90 %: {inside[later].mean():.1%}", end="")
+print(f", in the weeks of the closure {inside[closed].mean():.1%}")
+
+# %%
+# Whoever trades within the day forecasts every hour anew. With the load of the hour before among
+# the regressors the memory of the noise is used, and the next hours are known better than those of
+# tomorrow. `forgetting.forecasts` makes all of these forecasts, with a tracker for each horizon,
+# and says what the intervals held beside those that take the noise for white, normal and of one
+# size.
+hourly = fg.ARX(na=1, nb=1, nk=0, offset=True)
+print(fg.forecasts(hourly, phi[:, 1:], load, horizons=[1, 6, 24], level=0.9))
+
+# %%
+# A week of it, in October, with the intervals about the forecasts of the bank.
 with styled():
     figure, ax = plt.subplots(figsize=(8.5, 3.2), layout="constrained")
     week = slice(285 * 24, 292 * 24)
     ax.plot(hours[week] / 24, load[week], "k--", linewidth=1, label="measured")
     for name in ("bank", "no forgetting", "same hour, a week ago"):
-        ax.plot(hours[week] / 24, forecast[name][week], label=name)
+        (line,) = ax.plot(hours[week] / 24, forecast[name][week], label=name)
+        if name == "bank":
+            ends = [(forecast[name] + side * half_width)[week] for side in (-1, 1)]
+            ax.fill_between(hours[week] / 24, *ends, color=line.get_color(), alpha=0.2)
     ax.set(title="Load (MW), forecast a day ahead", xlabel="day of the year")
     ax.legend(ncols=4)

@@ -65,12 +65,23 @@ MODULES = (
             ("One estimator", ("RLS", "Update", "Run", "Evidence")),
             (
                 "How far to trust it",
-                ("Health", "ExcitationMeter", "predict", "Prediction", "Intervals", "bounded"),
+                (
+                    "Health",
+                    "ExcitationMeter",
+                    "predict",
+                    "Prediction",
+                    "Intervals",
+                    "DelayedIntervals",
+                    "bounded",
+                ),
             ),
             ("Several on one stream", ("Bank", "BankUpdate")),
             (
                 "Dynamic models",
-                ("ARX", "FIR", "AR", "ARMA", "ARMAX", "OE", "BJ", "PolynomialModel"),
+                (
+                    *("ARX", "FIR", "AR", "ARMA", "ARMAX", "OE", "BJ"),
+                    *("PolynomialModel", "forecasts", "Forecasts"),
+                ),
             ),
             ("Choosing settings", ("tune", "tune_arx", "tune_model", "Tuning")),
             ("Many streams", ("Fleet", "FleetUpdate", "FleetHealth")),
@@ -119,6 +130,7 @@ INTERNAL = (
     "choice",
     "choices",
     "cli",
+    "delayed",
     "extras",
     "fleet",
     "health",

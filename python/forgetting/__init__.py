@@ -28,10 +28,11 @@ from ._core import (
     __version__,
     bounded,
 )
+from .delayed import DelayedIntervals
 from .fleet import FleetHealth
 from .health import Health
 from .meter import ExcitationMeter
-from .models import AR, ARMA, ARMAX, ARX, BJ, FIR, OE
+from .models import AR, ARMA, ARMAX, ARX, BJ, FIR, OE, Forecasts, forecasts
 from .polynomials import PolynomialModel
 from .prediction import Prediction, predict
 from .registry import *  # noqa: F403 (the axes and their registries)
@@ -50,11 +51,13 @@ __all__ = [
     "SKIPPED",
     "Bank",
     "BankUpdate",
+    "DelayedIntervals",
     "Evidence",
     "ExcitationMeter",
     "Fleet",
     "FleetHealth",
     "FleetUpdate",
+    "Forecasts",
     "Health",
     "Intervals",
     "InvalidInput",
@@ -66,6 +69,7 @@ __all__ = [
     "Update",
     "__version__",
     "bounded",
+    "forecasts",
     "predict",
     "tune",
     "tune_arx",

@@ -25,6 +25,7 @@ LAYERS: tuple[tuple[tuple[str, ...], str], ...] = (
     (("choice",), "what every rule, rate, weighting, gate and mixer is"),
     (("judgement",), "what speaks for and against an estimate, in words; the one judge"),
     (("choices", "health", "meter", "prediction"), "rules as classes; how one estimator fares"),
+    (("delayed",), "intervals about forecasts, whose errors are known late"),
     (("registry", "fleet"), "all the classes by name; how many estimators fare"),
     (("polynomials",), "what an identified model is, whoever estimated it"),
     (("models",), "they make regressors and keep an estimator behind them"),

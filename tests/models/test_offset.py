@@ -13,6 +13,8 @@ from forgetting.record.identify import identify
 from reference.polynomial import SYSTEMS, record
 
 RECORDS, RECORDS_OF_THE_BANK = 120, 15
+START = 400
+"""Samples at first during which filters are far from where they end."""
 CLASSES = {
     "arma": fg.ARMA(na=1, nc=1),
     "armax": fg.ARMAX(na=2, nb=2, nc=2),
@@ -51,6 +53,29 @@ def test_errors_of_the_offset_are_as_large_as_is_said(name):
     assert np.mean(np.array(told) < 1.96) > most
     # what the estimator says of a constant at the first sample is something else
     assert np.median(unmoved) > 2.0
+
+
+@pytest.mark.parametrize("name", ["oe", "bj"])
+def test_the_start_is_why_too_few_of_them_hold_it(name):
+    """Of the regression without the first samples, taken far from the end, enough of them do."""
+    away = {0: [], START: []}
+    for seed in range(RECORDS):
+        u, y, truth = about(name, seed)
+        model = new(name, rule="none", offset=True)
+        course = model.fit(u, y).course(u, y, ("phi", "y"))
+        origin = model.origin(np.array([u[0], y[0]]))
+        for first, found in away.items():
+            rows = slice(max(first, model.reach), None)
+            phi, target = course["phi"][rows], course["y"][rows]
+            covariance = np.linalg.inv(phi.T @ phi)
+            theta = covariance @ phi.T @ target
+            said = model.noise_variance_ * origin.covariance(theta, covariance)[-1, -1]
+            found.append((origin.express(theta)[-1] - truth, np.sqrt(said)))
+    error, said = np.array(away[START]).T
+    # 97 and 94 % seen
+    assert np.mean(np.abs(error) < 1.96 * said) > 0.9
+    every = np.array(away[0])[:, 0]
+    assert np.sqrt(np.mean(error**2)) < 0.75 * np.sqrt(np.mean(every**2))
 
 
 def test_a_record_tells_the_same():

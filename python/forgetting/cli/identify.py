@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from forgetting.cli import options
-from forgetting.cli.parse import parse_covariance, parse_known
+from forgetting.cli.parse import parse_covariance, parse_known, parse_steps
 from forgetting.cli.progress import progress_bar
 from forgetting.cli.rulebook import check_half_life, make_gate, rule_or_auto
 from forgetting.cli.source import show_record, told
@@ -53,6 +53,7 @@ def identify(
     prior: options.Prior = None,
     noise: options.Noise = None,
     level: options.Level = None,
+    ahead: options.Ahead = None,
     report: options.Report = None,
     estimates: options.Estimates = None,
     plot: options.Plot = None,
@@ -90,6 +91,7 @@ def identify(
             prior=parse_known("prior", prior),
             noise=noise,
             level=level,
+            ahead=parse_steps(ahead),
             progress=progress,
         )
     print_result(found, write(found, report, estimates, plot), as_json)

@@ -293,6 +293,16 @@ Level = Annotated[
         "--level",
     ),
 ]
+Ahead = Annotated[
+    str | None,
+    option(
+        FILES,
+        "With --level: how many samples ahead to forecast all along the record, such as 1,24; what "
+        "the intervals about forecasts held is told. Of --arx and --model, with one output.",
+        "--ahead",
+        metavar="STEPS",
+    ),
+]
 Report = Annotated[
     Path | None,
     option(

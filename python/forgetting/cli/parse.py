@@ -37,6 +37,16 @@ def parse_orders(text: str) -> list[Each]:
     return orders
 
 
+def parse_steps(text: str | None) -> list[int] | None:
+    """Read how many samples ahead, with commas; None where nothing is said."""
+    try:
+        return None if text is None else [int(part) for part in text.split(",")]
+    except ValueError:
+        raise RecordError(
+            f"--ahead takes whole numbers with commas such as 1,24, but got {text!r}"
+        ) from None
+
+
 def parse_covariance(text: str) -> Any:
     """Read one number, or the diagonal with commas; None for auto."""
     if text == "auto":

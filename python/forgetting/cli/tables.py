@@ -64,6 +64,8 @@ def table(title: str, header: Sequence[str], rows: Sequence[Sequence[str]]) -> T
 
 def print_identification(found: Identification) -> None:
     """Print the verdict, parameters, scores, counts and findings."""
+    from forgetting.record.ahead import about_intervals
+
     out = console()
     samples = found.samples
     out.print(f"[bold]{escape(samples.source)}[/]  {escape(samples.model)}")
@@ -76,7 +78,7 @@ def print_identification(found: Identification) -> None:
     if found.memories is not None:
         out.print(escape(found.memories.describe()), "\n")
     out.print(scores(found))
-    for sentence in found.intervals.describe(samples.outputs) if found.intervals else ():
+    for sentence in about_intervals(found):
         out.print(escape(sentence), "\n")
     out.print(f"samples     {len(samples.y)}: {found.used} used, {found.left_out()}")
     for change in found.changes[:CHANGES]:

@@ -10,8 +10,21 @@ from forgetting.models.armax import ARMAX
 from forgetting.models.arx import ARX
 from forgetting.models.bj import BJ
 from forgetting.models.fir import FIR
+from forgetting.models.forecasts import Forecasts, forecasts
 from forgetting.models.named import NamedModel
 from forgetting.models.oe import OE
 from forgetting.models.orders import Orders
 
-__all__ = ["AR", "ARMA", "ARMAX", "ARX", "BJ", "FIR", "OE", "NamedModel", "Orders"]
+__all__ = [
+    "AR",
+    "ARMA",
+    "ARMAX",
+    "ARX",
+    "BJ",
+    "FIR",
+    "OE",
+    "Forecasts",
+    "NamedModel",
+    "Orders",
+    "forecasts",
+]

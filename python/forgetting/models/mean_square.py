@@ -38,16 +38,22 @@ class MeanSquare:
 
     def __init__(self, targets: int, memory: int, skip: int) -> None:
         self.value = np.full(targets, np.nan)
-        self._memory, self._seen = memory, -skip
+        self._memory, self._seen, self._weight = memory, -skip, 0.0
 
-    def add(self, squares: Array) -> None:
-        """Take note of the squares of some samples, (T, m)."""
-        counted = squares[max(0, -self._seen) :]
+    def add(self, squares: Array, weights: Array | None = None) -> None:
+        """Take note of the squares of some samples, (T, m), and of what they count, (T,) in (0, 1].
+
+        One that counts less than 1 is as much less of a sample.
+        """
+        first = max(0, -self._seen)
+        counted = squares[first:]
         if len(counted):
-            before = max(self._seen, 0)
-            counts = np.minimum(before + 1.0 + np.arange(len(counted)), self._memory)
+            each = np.ones(len(counted)) if weights is None else weights[first:]
+            before = self._weight
+            counts = np.minimum(before + np.cumsum(each), self._memory)
             # what is left of the mean before each sample once all later ones have come
-            left = np.cumprod(1.0 - 1.0 / counts[::-1])[::-1]
-            shares = np.append(left[1:], 1.0) / counts
+            left = np.cumprod(1.0 - each[::-1] / counts[::-1])[::-1]
+            shares = np.append(left[1:], 1.0) * each / counts
             self.value = shares @ counted + (left[0] * self.value if before else 0.0)
+            self._weight = counts[-1]
         self._seen += len(squares)

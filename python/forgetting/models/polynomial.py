@@ -124,7 +124,7 @@ class Polynomial(PolynomialForecast):
     def _learn(
         self, model: SignalModel, estimator: Any, noise: MeanSquare, inputs: Array, outputs: Array
     ) -> int:
-        kept = model.learn(estimator, inputs, outputs, outputs="error")
-        errors = kept["error"]
-        noise.add(errors[~np.isnan(errors), None] ** 2)
+        kept = model.learn(estimator, inputs, outputs, outputs=("error", "scale"))
+        errors, known = kept["error"], ~np.isnan(kept["error"])
+        noise.add(errors[known, None] ** 2, kept["scale"][known] ** 2)
         return int(kept["used"])

@@ -75,7 +75,10 @@ class PolynomialEstimate(PolynomialStructure, Fitted):
 
     @property
     def noise_variance_(self) -> float:
-        """Variance of e, over up to the last thousand samples; NaN while there are too few."""
+        """Variance of e, over up to the last thousand samples; NaN while there are too few.
+
+        The mean square of errors, each counting as much as its sample: less at the start.
+        """
         return float(self._learned("noise_variance_", "_noise").value[0])
 
     @property

@@ -62,6 +62,12 @@ class SignalOrigin:
             found[..., -1] -= u * theta[..., b].sum(axis=-1) / (1.0 - theta[..., f].sum(axis=-1))
         return found
 
+    def take(self, theta: Array) -> Array:
+        """Parameters (n,) of signals as they are, for signals less their first values."""
+        found = theta.copy()
+        found[-1] -= self.express(theta)[-1] - theta[-1]
+        return found
+
     def gradient(self, theta: Array) -> Array:
         """Of the constant of signals as they are along all parameters, (..., n)."""
         found = np.zeros_like(theta)

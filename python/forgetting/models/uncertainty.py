@@ -28,8 +28,10 @@ def root_of(estimator: Any) -> Array | None:
     """L (n, n) with L Lᵀ = P; None for a bank."""
     if isinstance(estimator, Bank):
         return None
-    values, vectors = np.linalg.eigh(np.asarray(estimator.covariance, dtype=np.float64))
-    return np.asarray(vectors * np.sqrt(np.maximum(values, 0.0)))
+    covariance = np.asarray(estimator.covariance, dtype=np.float64)
+    size = np.sqrt(np.diagonal(covariance))  # so that no parameter is lost whose unit is small
+    values, vectors = np.linalg.eigh(covariance / np.outer(size, size))
+    return np.asarray(size[:, None] * vectors * np.sqrt(np.maximum(values, 0.0)))
 
 
 def leverage(phi: Array, root: Array | None) -> Array:

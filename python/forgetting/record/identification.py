@@ -15,6 +15,7 @@ from forgetting.analysis import Excited, Guarantee, guaranteed_bounds
 from forgetting.files import check_outputs
 from forgetting.judgement import Judgement
 from forgetting.record import estimates
+from forgetting.record.ahead import Ahead
 from forgetting.record.changes import Change, changes
 from forgetting.record.counts import Counts
 from forgetting.record.drift import Drift, claim, drift
@@ -66,6 +67,8 @@ class Identification(Counts):
         What was known of parameters before. Those that are fixed are not among the regressors.
     level : float or None
         Of the intervals about one-step predictions, where they were asked for.
+    ahead : Ahead or None
+        Forecasts many steps ahead, where they were asked for.
     """
 
     samples: Samples
@@ -79,6 +82,7 @@ class Identification(Counts):
     members: list[Any]
     known: Known = field(default_factory=Known)
     level: float | None = None
+    ahead: Ahead | None = None
 
     @cached_property
     def noise_variance(self) -> Array:
@@ -265,13 +269,12 @@ class Identification(Counts):
 
     def summary(self) -> dict[str, Any]:
         """What `forgetting identify` prints, for JSON: None where a number is not finite."""
-        rows = self.parameters.to_dict("records")
         ends = self.trace.eigenvalues[-1]
         found = {
             "record": self.samples.source,
             "model": self.samples.model,
             "rule": self.rule_in_words,
-            "parameters": rows,
+            "parameters": self.parameters.to_dict("records"),
             "known": self.known.to_dict() if self.known else None,
             "uncertainty": self.uncertainty,
             "drift": None if self.drift is None else self.drift.to_dict(),
@@ -279,6 +282,7 @@ class Identification(Counts):
             "read_as": self.samples.found.to_dict(),
             "clock": self.samples.clock_as_data(),
             "intervals": self.intervals and self.intervals.to_dict(self.samples.outputs),
+            "ahead": self.ahead and self.ahead.to_dict(),
             "noise": dict(zip(self.samples.outputs, self.noise.tolist(), strict=True)),
             "memory": self.memory,
             "memories": None if self.memories is None else self.memories.to_dict(),

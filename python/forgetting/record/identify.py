@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 import forgetting as fg
 from forgetting.models.orders import Each
 from forgetting.prediction import check_level
+from forgetting.record.ahead import asked
 from forgetting.record.dynamics import dynamics
 from forgetting.record.feedback import Feedback, feedback
 from forgetting.record.half_life import with_time
@@ -59,6 +60,7 @@ def identify(
     prior: Mapping[str, tuple[float, float]] | None = None,
     noise: float | None = None,
     level: float | None = None,
+    ahead: int | Sequence[int] | None = None,
     time: str | None = None,
     gap: str | float | None = None,
     missing: str | float | Words = (),
@@ -113,6 +115,9 @@ def identify(
         mean square one-step error of the same model without the priors.
     level : float, optional
         Between 0 and 1: intervals about one-step predictions, see `Identification.intervals`.
+    ahead : int or sequence of int, optional
+        With a level, of a model of one output by its columns: how many samples ahead to forecast
+        all along the record, see `Identification.ahead`.
     time, gap, missing
         The clock, its gaps, and what stands for missing values; see `forgetting.record.read`.
     progress : callable, optional
@@ -164,6 +169,12 @@ def identify(
         chosen["initial_covariance"] = initial_covariance
         course = learned(source, *columns, named, offset, **chosen)
         samples = course.samples
+    question = None
+    if ahead is not None:
+        if known.fixed:
+            raise RecordError("forecasts ahead do not take fixed values; leave out one of the two")
+        model_settings = {} if named is None else {"offset": offset, **chosen}
+        question = asked(source, *columns, (arx, named), ahead, level, **model_settings)
     del record, source  # the table, which nobody else may hold, is as large as what is made of it
     release(len(samples.y))
     known.check(samples.regressors, samples.outputs)
@@ -219,6 +230,7 @@ def identify(
     trace = here.back(trace) if course is None else course.back(trace)
     limits.put(trace.theta)
     known.add_priors(trace.theta, samples.regressors)
+    answer = None if question is None else question.answer(trace)
     return Identification(
         samples=samples,
         trace=trace,
@@ -232,6 +244,7 @@ def identify(
         members=estimator.members if isinstance(estimator, fg.Bank) else [],
         known=known,
         level=level,
+        ahead=answer,
     )
 
 

@@ -39,9 +39,7 @@ class OneStep:
     @cached_property
     def mean_square(self) -> Array:
         """Half-widths by the noise variance, known before each sample, (T, m)."""
-        trace = self.trace
-        if trace.weights is not None:  # P of members that do not count swells the leverage
-            trace = replace(trace, leverage=np.zeros_like(trace.leverage))
+        trace = without_swollen(self.trace)
         noise = np.full_like(trace.error, np.nan)
         noise[1:] = noise_variance(trace)[:-1]
         return np.asarray(quantile(self.level) * np.sqrt(noise * (1.0 + trace.leverage[:, None])))
@@ -91,3 +89,10 @@ class OneStep:
         """The conformal interval about the predictions of some rows, (K,)."""
         half_width = self.conformal[rows, output]
         return {"lower": prediction - half_width, "upper": prediction + half_width}
+
+
+def without_swollen(trace: Trace) -> Trace:
+    """The trace, of a bank without its leverage: P of members that do not count swells it."""
+    if trace.weights is None:
+        return trace
+    return replace(trace, leverage=np.zeros_like(trace.leverage))

@@ -10,6 +10,7 @@ from matplotlib import pyplot as plt
 
 from forgetting import plot
 from forgetting.files import check_outputs
+from forgetting.record.ahead import about_intervals
 from forgetting.record.identification import Identification
 from forgetting.record.parameters import table as in_words
 from forgetting.report.page import Block, Figure, Page, Table, write
@@ -116,8 +117,7 @@ def scores(found: Identification) -> Block:
         f"{result.samples} samples for all three. Each prediction is made before its sample is "
         f"learned."
     )
-    if found.intervals is not None:
-        text = " ".join([text, *found.intervals.describe(found.samples.outputs)])
+    text = " ".join([text, *about_intervals(found)])
     header = ("output", "this model", "same model, no forgetting", "last value repeated")
     return Block("One-step prediction", text, Table(header, rows))
 
