@@ -109,16 +109,20 @@ class Learned:
         One-step errors, NaN where the sample was left out.
     error_without_forgetting : ndarray, shape (T, 1)
         Those of the same model that never forgets.
+    trust : ndarray, shape (T,)
+        What each sample counted, in (0, 1]: less at the start.
     """
 
     samples: Samples
     theta: Array
     error: Array
     error_without_forgetting: Array
+    trust: Array
 
     def put(self, trace: Trace) -> Trace:
         """The trace of the linear regression with the estimates and errors of the model."""
-        return replace(trace, theta=self.theta[:, :, np.newaxis], error=self.error)
+        theta = self.theta[:, :, np.newaxis]
+        return replace(trace, theta=theta, error=self.error, trust=self.trust)
 
     def back(self, trace: Trace) -> Trace:
         """The trace with P of signals as they are; the variance of the offset changes in place.
@@ -152,10 +156,11 @@ def learned(
         kept = model.course(u, signals.output, names)
         return {name: kept[name][signals.rows] for name in names}
 
-    kept = course(settings.get("rule", "auto"), "phi", "y", "theta", "error")
+    kept = course(settings.get("rule", "auto"), "phi", "y", "theta", "error", "scale")
     plain = course("none", "error")
     samples = found.samples(kept["phi"], kept["y"])
-    return Learned(samples, kept["theta"], kept["error"][:, None], plain["error"][:, None])
+    trust = kept["scale"] ** 2
+    return Learned(samples, kept["theta"], kept["error"][:, None], plain["error"][:, None], trust)
 
 
 def which(
