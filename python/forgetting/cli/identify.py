@@ -52,6 +52,7 @@ def identify(
     fixed: options.Fixed = None,
     prior: options.Prior = None,
     noise: options.Noise = None,
+    feed_back: options.FeedBack = False,
     level: options.Level = None,
     report: options.Report = None,
     estimates: options.Estimates = None,
@@ -89,6 +90,7 @@ def identify(
             fixed=parse_known("fixed", fixed),
             prior=parse_known("prior", prior),
             noise=noise,
+            feed_back=feed_back,
             level=level,
             progress=progress,
         )
