@@ -1,6 +1,6 @@
 """The core in Rust: estimators, what they return, and the registries of what they are made of."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal, final
 
 import numpy as np
@@ -194,6 +194,7 @@ class RLS:
         missing: Literal["error", "skip"] = "error",
         *,
         time: ArrayLike | None = None,
+        bounds: tuple[ArrayLike, ArrayLike] | None = None,
     ) -> Run: ...
     def reset(self) -> None: ...
     def to_bytes(self) -> bytes: ...
@@ -397,6 +398,8 @@ class SignalModel:
         inputs: Sequence[tuple[int, int, int]] = (),
         constant: bool = False,
         method: str = "prediction_error",
+        fixed: Mapping[int, float] | None = None,
+        prior: Mapping[int, float] | None = None,
     ) -> SignalModel: ...
     def learn(
         self,
@@ -404,6 +407,8 @@ class SignalModel:
         u: ArrayLike,
         y: ArrayLike,
         outputs: str | Sequence[str] | None = None,
+        *,
+        bounds: tuple[ArrayLike, ArrayLike] | None = None,
     ) -> dict[str, Any]: ...
     def predict(
         self, u: ArrayLike, y: ArrayLike, *, from_rest: bool = True
@@ -412,6 +417,8 @@ class SignalModel:
     def theta(self) -> NDArray[np.float64]: ...
     @property
     def parameters(self) -> int: ...
+    @property
+    def estimated(self) -> int: ...
     @property
     def samples(self) -> int: ...
     def to_bytes(self) -> bytes: ...

@@ -64,7 +64,7 @@ LAYERS: dict[str, tuple[str, ...]] = {
     "forgetting-py": (
         "errors",
         "arrays pickle prediction",
-        "callable",
+        "bounds callable",
         "choice",
         "settings registry run update bank_update shared time",
         "window",

@@ -185,7 +185,7 @@ def test_what_does_not_take_it_says_so(cell):
     table = cell.assign(W=cell["V"] + 1.0)
     with pytest.raises(RecordError, match="a model with one output; this one has 2"):
         identify(table, formula="V + W ~ I", fixed={"I": 1.0})
-    with pytest.raises(RecordError, match="takes no bounds"):
+    with pytest.raises(RecordError, match="the parameters are 'I\\(k-1\\)'"):
         identify(table, output="V", input="I", model="oe:nb=1,nf=1", bounds={"I": (0, 1)})
     with pytest.raises(RecordError, match="does not tell the noise"):
         identify(cell[:2], formula="V ~ 0 + I", prior={"I": (0.0, 1.0)})

@@ -311,8 +311,10 @@ impl Bank {
         let mut held = self.bank.lock(py)?;
         let record = (phi.view("phi")?, y.view("y")?, view("gamma", &gamma)?);
         let (bank, outputs) = (&mut *held, names(outputs.as_ref()));
-        let options =
-            RunOptions { missing, outputs: outputs.as_deref(), time: view("time", &times)? };
+        let options = RunOptions {
+            time: view("time", &times)?,
+            ..RunOptions::new(missing, outputs.as_deref())
+        };
         let run = py.detach(|| bank.run_while(record, &options, &mut heed_signals));
         Run::new(py, run.map_err(raise)?)
     }

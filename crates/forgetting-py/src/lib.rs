@@ -4,6 +4,7 @@
 mod arrays;
 mod bank;
 mod bank_update;
+mod bounds;
 mod callable;
 mod choice;
 mod errors;

@@ -2,13 +2,15 @@
 
 use crate::arrays::{output, Input};
 use crate::bank::Bank;
+use crate::bounds::{BoundsInput, Pair};
 use crate::errors::{heed_signals, invalid, raise};
 use crate::rls::Rls;
 use crate::settings::{names, Names, Whole};
 use crate::shared::Shared;
-use forgetting_runtime::{InputOrders, Learner, Model, NumberType, Orders, STRUCTURES};
+use forgetting_runtime::{Given, InputOrders, Learner, Model, NumberType, Orders, STRUCTURES};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyType};
+use std::collections::HashMap;
 
 /// A model A y = sum of B/F u + C/D e + constant while samples come: it makes of them what an
 /// estimator takes.
@@ -23,6 +25,10 @@ use pyo3::types::{PyBytes, PyDict, PyType};
 ///     Whether there is a constant.
 /// method : {"prediction_error", "extended_least_squares"}
 ///     Whether the gradient of the prediction is the regressor, or what the prediction is made of.
+/// fixed, prior : dict of int to float, optional
+///     What is known of parameters, by their places: values that are exact, which the estimator does not
+///     have, and values from which it says how far the parameters are. A constant of which something is
+///     known is that of signals measured from zero; of others from their first values.
 ///
 /// Raises
 /// ------
@@ -35,9 +41,10 @@ pub struct SignalModel(Shared<Model>);
 impl SignalModel {
     #[new]
     #[pyo3(signature = (*, na=Whole(0), nc=Whole(0), nd=Whole(0), inputs=Vec::new(), constant=false,
-        method="prediction_error"),
+        method="prediction_error", fixed=None, prior=None),
         text_signature = "(*, na=0, nc=0, nd=0, inputs=(), constant=False, \
-        method='prediction_error')")]
+        method='prediction_error', fixed=None, prior=None)")]
+    #[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn new(
         na: Whole,
         nc: Whole,
@@ -45,6 +52,8 @@ impl SignalModel {
         inputs: Vec<(Whole, Whole, Whole)>,
         constant: bool,
         method: &str,
+        fixed: Option<HashMap<usize, f64>>,
+        prior: Option<HashMap<usize, f64>>,
     ) -> PyResult<Self> {
         let of_input = |(nb, nf, nk)| -> PyResult<InputOrders> {
             Ok(InputOrders { nb: order("nb", nb)?, nf: order("nf", nf)?, nk: order("nk", nk)? })
@@ -52,7 +61,12 @@ impl SignalModel {
         let inputs: PyResult<Vec<_>> = inputs.into_iter().map(of_input).collect();
         let (na, nc, nd) = (order("na", na)?, order("nc", nc)?, order("nd", nd)?);
         let orders = Orders { na, nc, nd, inputs: inputs?, constant };
-        Ok(Self(Shared::new(Model::new(orders, method).map_err(raise)?)))
+        let model = Model::new(orders, method).map_err(raise)?;
+        let (fixed, prior) = (fixed.unwrap_or_default(), prior.unwrap_or_default());
+        let given = given(model.orders().parameters(), &fixed, &prior)?;
+        let informed = !(fixed.is_empty() && prior.is_empty());
+        let model = if informed { model.knowing(&given).map_err(raise)? } else { model };
+        Ok(Self(Shared::new(model)))
     }
 
     /// Take a record of T samples through an estimator of as many parameters.
@@ -65,7 +79,10 @@ impl SignalModel {
     ///     NaN for what is missing: such a sample, and every later one whose lags reach it, is left out.
     /// outputs : str or sequence of str
     ///     What to keep: "phi" and "y", which the estimator was given, "error", "theta", "scale" or
-    ///     "skipped".
+    ///     "skipped"; and outputs of the estimator, names of attributes of `Run`, for the parameters that
+    ///     are estimated.
+    /// bounds : pair of (estimated,) array, optional
+    ///     As of `RLS.run`, for the parameters that are estimated, less their priors.
     ///
     /// Returns
     /// -------
@@ -75,7 +92,7 @@ impl SignalModel {
     /// ------
     /// InvalidInput, NumericalRange
     ///     Names the sample and what is wrong with it; nothing has changed.
-    #[pyo3(signature = (estimator, u, y, outputs=None))]
+    #[pyo3(signature = (estimator, u, y, outputs=None, *, bounds=None))]
     fn learn<'py>(
         &self,
         py: Python<'py>,
@@ -83,7 +100,10 @@ impl SignalModel {
         u: &Bound<'py, PyAny>,
         y: &Bound<'py, PyAny>,
         outputs: Option<Names>,
+        bounds: Option<Pair<'py>>,
     ) -> PyResult<Bound<'py, PyDict>> {
+        let bounds = BoundsInput::read(bounds.as_ref())?;
+        let bounds = bounds.as_ref().map(BoundsInput::view).transpose()?;
         let u = Input::read("u", u, NumberType::F64)?;
         let y = Input::read("y", y, NumberType::F64)?;
         let record = (u.view("u")?, y.view("y")?);
@@ -91,7 +111,8 @@ impl SignalModel {
         let mut held = self.0.lock(py)?;
         let model = &mut *held;
         let mut learn = |learner: Learner<'_>| {
-            py.detach(|| model.learn(learner, record, &outputs, &mut heed_signals)).map_err(raise)
+            let how = (&outputs[..], bounds);
+            py.detach(|| model.learn(learner, record, how, &mut heed_signals)).map_err(raise)
         };
         let run = if let Ok(own) = estimator.cast::<Rls>() {
             learn(Learner::Estimator(&mut *own.get().estimator.lock(py)?))
@@ -136,6 +157,12 @@ impl SignalModel {
         Ok(self.0.lock(py)?.orders().parameters())
     }
 
+    /// Number of parameters that are estimated: all but those that are fixed.
+    #[getter]
+    fn estimated(&self, py: Python<'_>) -> PyResult<usize> {
+        Ok(self.0.lock(py)?.estimated())
+    }
+
     /// Samples so far.
     #[getter]
     fn samples(&self, py: Python<'_>) -> PyResult<u64> {
@@ -178,6 +205,25 @@ pub fn structures(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
         all.set_item(structure.name, about)?;
     }
     Ok(all)
+}
+
+/// What is known of each of n parameters.
+fn given(
+    n: usize,
+    fixed: &HashMap<usize, f64>,
+    prior: &HashMap<usize, f64>,
+) -> PyResult<Vec<Given>> {
+    let places = fixed.keys().chain(prior.keys());
+    if let Some(place) = places.copied().find(|&place| place >= n) {
+        let last = n - 1;
+        return Err(invalid(format!("place {place} of what is known, allowed: 0 to {last}")));
+    }
+    let of = |place| match (fixed.get(&place), prior.get(&place)) {
+        (Some(&value), _) => Given::Fixed(value),
+        (None, Some(&value)) => Given::Prior(value),
+        (None, None) => Given::Nothing,
+    };
+    Ok((0..n).map(of).collect())
 }
 
 /// An order as a size; what is below 0 is refused here, what is too large by the model.

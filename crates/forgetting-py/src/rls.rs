@@ -1,6 +1,7 @@
 //! The class `RLS`.
 
 use crate::arrays::{output, output_or_float, Input};
+use crate::bounds::{BoundsInput, Pair};
 use crate::errors::{heed_signals, raise};
 use crate::prediction::interval;
 use crate::run::Run;
@@ -338,6 +339,12 @@ impl Rls {
     ///     When samples were taken, not decreasing, with the time of the last sample before them or
     ///     without; see `elapsed` of `update`. If not given, each sample takes one unit of time. A
     ///     sample that is left out takes none: its time is the next one's.
+    /// bounds : pair of (n,) array, optional
+    ///     Smallest and largest value of each parameter, -inf and inf where there is none. After each
+    ///     sample theta is moved to the nearest point within them, as by
+    ///     ``est.theta = bounded(est.theta, est.covariance, lower, upper)``, and goes on from there:
+    ///     for true parameters within the bounds the error, weighed by P⁻¹, never rises by that.
+    ///     Of estimators with one target.
     ///
     /// Returns
     /// -------
@@ -348,7 +355,16 @@ impl Rls {
     /// InvalidInput, NumericalRange
     ///     Names the sample and what is wrong with it; the estimator is as it was before the
     ///     record.
-    #[pyo3(signature = (phi, y, gamma=None, outputs=None, missing="error", *, time=None))]
+    ///
+    /// Examples
+    /// --------
+    /// >>> import numpy as np
+    /// >>> import forgetting as fg
+    /// >>> phi = np.array([[1.0, 0.5], [1.0, 0.6], [1.0, 0.4]])
+    /// >>> run = fg.RLS(2, rule="none").run(phi, [-1.0, 2.0, 1.0], bounds=([0.0, 0.0], [1.0, 1.0]))
+    /// >>> bool((run.theta >= 0.0).all() and (run.theta <= 1.0).all())
+    /// True
+    #[pyo3(signature = (phi, y, gamma=None, outputs=None, missing="error", *, time=None, bounds=None))]
     #[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn run(
         &self,
@@ -359,8 +375,10 @@ impl Rls {
         outputs: Option<Names>,
         missing: &str,
         time: Option<&Bound<'_, PyAny>>,
+        bounds: Option<Pair<'_>>,
     ) -> PyResult<Run> {
         let missing = Missing::named(missing).map_err(raise)?;
+        let bounds = BoundsInput::read(bounds.as_ref())?;
         let (phi, y) = (self.input("phi", phi)?, self.input("y", y)?);
         let gamma = gamma.map(|gamma| self.input("gamma", gamma)).transpose()?;
         let times = read_times(time)?;
@@ -368,8 +386,9 @@ impl Rls {
         let mut held = self.estimator.lock(py)?;
         let record = (phi.view("phi")?, y.view("y")?, view("gamma", &gamma)?);
         let (estimator, outputs) = (&mut *held, names(outputs.as_ref()));
-        let options =
-            RunOptions { missing, outputs: outputs.as_deref(), time: view("time", &times)? };
+        let mut options = RunOptions::new(missing, outputs.as_deref());
+        options.time = view("time", &times)?;
+        options.bounds = bounds.as_ref().map(BoundsInput::view).transpose()?;
         let run = py.detach(|| estimator.run_while(record, &options, &mut heed_signals));
         Run::new(py, run.map_err(raise)?)
     }

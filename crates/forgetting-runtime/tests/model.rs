@@ -35,7 +35,7 @@ fn learn(model: &mut Model, estimator: &mut Estimator, (u, y): (&[f64], &[f64]))
     let shape = [y.len(), 1];
     let inputs = View::new("u", u, &shape).expect("of this shape");
     let learner = Learner::Estimator(estimator);
-    let run = model.learn(learner, (inputs, y.into()), &["error"], &mut || Ok(()));
+    let run = model.learn(learner, (inputs, y.into()), (&["error"], None), &mut || Ok(()));
     run.expect("a sound record").take("error").expect("asked for").elements.to_f64()
 }
 
@@ -81,7 +81,7 @@ fn a_refused_sample_leaves_all_as_it_was() {
     let shape = [100, 1];
     let inputs = View::new("u", &u[..], &shape).expect("of this shape");
     let refused =
-        model.learn(Learner::Bank(&mut bank), (inputs, y[..].into()), &[], &mut || Ok(()));
+        model.learn(Learner::Bank(&mut bank), (inputs, y[..].into()), (&[], None), &mut || Ok(()));
     assert!(matches!(refused, Err(Error::Sample { sample: 60, .. })), "{refused:?}");
     assert_eq!(before, (bank.to_bytes().expect("data"), model.to_bytes()));
 }
@@ -96,6 +96,6 @@ fn orders_and_estimators_that_do_not_fit_are_named() {
     let learner = Learner::Estimator(&mut estimator);
     let shape = [1, 1];
     let inputs = View::new("u", &[0.0][..], &shape).expect("of this shape");
-    let error = model.learn(learner, (inputs, [0.0][..].into()), &[], &mut || Ok(()));
+    let error = model.learn(learner, (inputs, [0.0][..].into()), (&[], None), &mut || Ok(()));
     assert!(error.expect_err("three for four").to_string().contains("4 parameters"));
 }

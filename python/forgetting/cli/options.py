@@ -255,6 +255,14 @@ Fixed = Annotated[
         metavar="NAME=VALUE,...",
     ),
 ]
+FeedBack = Annotated[
+    bool,
+    option(
+        KNOWN,
+        "Whether the estimator goes on from what --bounds moved; of a rule, not of the bank.",
+        "--feed-back/--no-feed-back",
+    ),
+]
 Prior = Annotated[
     str | None,
     option(

@@ -78,6 +78,7 @@ def stream(
     fixed: options.Fixed = None,
     prior: options.Prior = None,
     noise: options.Noise = None,
+    feed_back: options.FeedBack = False,
     to: Annotated[str, options.option(OUT, "json (an object a line) or csv.", "--to")] = "json",
     fields: Annotated[
         str | None,
@@ -136,6 +137,7 @@ def stream(
         fixed=parse_known("fixed", fixed),
         prior=parse_known("prior", prior),
         noise=noise,
+        feed_back=feed_back,
         time=time,
         gap=gap,
         missing=tuple(missing or ()),

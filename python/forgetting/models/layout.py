@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
 
@@ -37,6 +37,21 @@ class Layout:
         inputs = len(each)
         return cls(a, tuple(others[:inputs]), others[inputs], tuple(others[inputs + 1 :]))
 
+    def without(self, places: Collection[int]) -> Layout:
+        """Of a model that does not estimate the parameters at these places.
+
+        Examples
+        --------
+        >>> Layout.of(2, [(2, 1)], noise=1).without([0, 5]).b
+        (slice(1, 3, None),)
+        """
+
+        def left(part: slice) -> int:
+            return sum(place not in places for place in range(part.start, part.stop))
+
+        each = [(left(b), left(f)) for b, f in zip(self.b, self.f, strict=True)]
+        return Layout.of(left(self.a), each, left(self.noise))
+
     @property
     def past_outputs(self) -> range:
         """Places at which past outputs stand."""
@@ -46,6 +61,11 @@ class Layout:
     def past_inputs(self) -> range:
         """Places at which inputs stand."""
         return range(self.a.stop, self.noise.start)
+
+    @property
+    def end(self) -> int:
+        """The place behind all of them, where a constant stands."""
+        return int(self.f[-1].stop if self.f else self.noise.stop)
 
     @property
     def of_noise(self) -> int:

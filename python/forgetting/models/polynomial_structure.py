@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -54,16 +54,39 @@ class PolynomialStructure:
         lags = [delay + order - 1 for delay, order in zip(nk, nb, strict=True)]
         return max(self.na, *lags, 0)
 
-    def at_rest(self, inputs: int) -> SignalModel:
-        """What makes regressors of so many inputs and an output, before the first sample."""
-        return SignalModel(**self._orders(inputs), constant=self.offset, method=self.method)
+    def at_rest(
+        self,
+        inputs: int,
+        fixed: Mapping[int, float] | None = None,
+        prior: Mapping[int, float] | None = None,
+    ) -> SignalModel:
+        """What makes regressors of so many inputs and an output, before the first sample.
 
-    def origin(self, first: Array) -> SignalOrigin | None:
+        What is known of parameters goes by their places, see `SignalModel`.
+        """
+        return SignalModel(
+            **self._orders(inputs),
+            constant=self.offset,
+            method=self.method,
+            fixed=fixed,
+            prior=prior,
+        )
+
+    def origin(
+        self,
+        first: Array,
+        fixed: Mapping[int, float] | None = None,
+        prior: Mapping[int, float] | None = None,
+    ) -> SignalOrigin | None:
         """What `at_rest` measures from, by the first values of all inputs and the output, (i + 1,).
 
-        None without a constant, as zero is the origin then.
+        None, as zero is the origin, without a constant or where something is known of it.
         """
-        return SignalOrigin.of(first, self.layout(len(first) - 1)) if self.offset else None
+        layout = self.layout(len(first) - 1)
+        place = layout.end
+        if not self.offset or place in (fixed or {}) or place in (prior or {}):
+            return None
+        return SignalOrigin.of(first, layout, fixed)
 
     def layout(self, inputs: int) -> Layout:
         """Where the parameters of each polynomial stand, for so many inputs."""

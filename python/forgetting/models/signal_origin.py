@@ -11,8 +11,8 @@ is said of standard errors here.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +34,9 @@ class SignalOrigin:
         That of the output.
     layout : Layout
         Where the parameters stand.
+    fixed : dict of int to float
+        Places and values of parameters that are not estimated: all others are what is called
+        theta here.
 
     Examples
     --------
@@ -47,16 +50,19 @@ class SignalOrigin:
     inputs: Array
     output: float
     layout: Layout
+    fixed: Mapping[int, float] = field(default_factory=dict)
 
     @classmethod
-    def of(cls, first: Array, layout: Layout) -> SignalOrigin:
+    def of(
+        cls, first: Array, layout: Layout, fixed: Mapping[int, float] | None = None
+    ) -> SignalOrigin:
         """By the first values of all inputs and of the output, (inputs + 1,); NaN counts as 0."""
         known = np.nan_to_num(first)
-        return cls(known[:-1], float(known[-1]), layout)
+        return cls(known[:-1], float(known[-1]), layout, fixed or {})
 
     def express(self, theta: Array) -> Array:
         """Parameters (..., n) of signals less their first values, for signals as they are."""
-        found = theta.copy()
+        found, theta = theta.copy(), self._all(theta)
         found[..., -1] += self.output * (1.0 - theta[..., self.layout.a].sum(axis=-1))
         for u, b, f in self._of_inputs():
             found[..., -1] -= u * theta[..., b].sum(axis=-1) / (1.0 - theta[..., f].sum(axis=-1))
@@ -70,6 +76,7 @@ class SignalOrigin:
 
     def gradient(self, theta: Array) -> Array:
         """Of the constant of signals as they are along all parameters, (..., n)."""
+        theta = self._all(theta)
         found = np.zeros_like(theta)
         found[..., -1] = 1.0
         found[..., self.layout.a] = -self.output
@@ -77,13 +84,23 @@ class SignalOrigin:
             slow = 1.0 - theta[..., f].sum(axis=-1, keepdims=True)
             found[..., b] = -u / slow
             found[..., f] = -u * theta[..., b].sum(axis=-1, keepdims=True) / slow**2
-        return found
+        return np.delete(found, list(self.fixed), axis=-1) if self.fixed else found
 
     def change(self, theta: Array) -> Array:
         """What makes of P (n, n) that of parameters for signals as they are, at `theta` (n,)."""
         change = np.eye(len(theta))
         change[-1] = self.gradient(theta)
         return change
+
+    def _all(self, theta: Array) -> Array:
+        """With the parameters that are fixed, each in its place."""
+        if not self.fixed:
+            return theta
+        count = theta.shape[-1] + len(self.fixed)
+        found = np.empty((*theta.shape[:-1], count))
+        found[..., [i for i in range(count) if i not in self.fixed]] = theta
+        found[..., list(self.fixed)] = list(self.fixed.values())
+        return found
 
     def _of_inputs(self) -> Iterator[tuple[float, slice, slice]]:
         """First value, and places of B and F, of each input."""

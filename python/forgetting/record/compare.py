@@ -11,15 +11,15 @@ from numpy.typing import ArrayLike
 import forgetting as fg
 from forgetting.models.orders import Each
 from forgetting.record.comparison import Compared, Comparison
-from forgetting.record.identify import build, listed
 from forgetting.record.origin import origin
-from forgetting.record.polynomial import recorded, which
+from forgetting.record.polynomial import recorded
 from forgetting.record.ranking import Learn, Whole, by_regressors, by_signals, over_all
 from forgetting.record.read import Record, read
 from forgetting.record.release import release
 from forgetting.record.samples import Samples
 from forgetting.record.scores import scored_samples
 from forgetting.record.tune import problem
+from forgetting.record.which import build, listed, which
 from forgetting.tuning.candidate import Candidate, tuned
 from forgetting.tuning.choose import SHARE
 from forgetting.tuning.grid import MEMORIES

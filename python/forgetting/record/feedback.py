@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from forgetting.models.layout import Layout
 from forgetting.record.samples import Samples
 
 Array = NDArray[np.float64]
@@ -57,7 +58,7 @@ class Feedback:
         """The same where parameters are `values` (n,) more than is estimated of those `left`."""
         known = {lag: float(values[i]) for i, (lag, _) in self.lags.items() if values[i]}
         lags = {new: self.lags[old] for new, old in enumerate(left) if old in self.lags}
-        return Feedback(lags, self.outputs, known)
+        return Feedback(lags, self.outputs, known, self.of_noise)
 
     def matrices(self, theta: Array) -> Array:
         """A_1 ... A_na of y(k) = A_1 y(k-1) + ..., (na, m, m), from theta (n, m)."""
@@ -78,11 +79,8 @@ def feedback(samples: Samples) -> Feedback:
     >>> feedback(Samples(phi, y, ("1", "lag(y)"), ("y",), "", None, "")).lags
     {1: (1, 0)}
     """
-    if samples.layout is not None:  # filtered, so that values do not tell
-        past = samples.layout.past_outputs
-        return Feedback(
-            {place: (place + 1, 0) for place in past}, 1, of_noise=samples.layout.of_noise
-        )
+    if samples.layout is not None:
+        return of_layout(samples.layout)
     known = np.flatnonzero(samples.complete)
     first = known[: LOOKED_AT + DEEPEST]
     found: dict[int, tuple[int, int]] = {}
@@ -97,6 +95,13 @@ def feedback(samples: Samples) -> Feedback:
                 found[column] = (lag, match[0])
                 break
     return Feedback(found, samples.y.shape[1])
+
+
+def of_layout(layout: Layout) -> Feedback:
+    """The same of a model with coloured noise, whose regressors are filtered: no value tells."""
+    return Feedback(
+        {place: (place + 1, 0) for place in layout.past_outputs}, 1, of_noise=layout.of_noise
+    )
 
 
 def is_past(samples: Samples, rows: NDArray[np.intp], column: int, lag: int, output: int) -> bool:

@@ -15,25 +15,23 @@ import forgetting as fg
 from forgetting.models.orders import Each
 from forgetting.prediction import check_level
 from forgetting.record.ahead import asked
-from forgetting.record.dynamics import dynamics
 from forgetting.record.feedback import Feedback, feedback
 from forgetting.record.half_life import with_time
 from forgetting.record.identification import Identification
 from forgetting.record.judge import Judged, judge, settled
 from forgetting.record.known import Bounds, Known
+from forgetting.record.learned import Learned, learned
 from forgetting.record.limits import Limits
 from forgetting.record.missing import Words
 from forgetting.record.moved import Moved
-from forgetting.record.names import clean
 from forgetting.record.noise import noise_of, refuse_functions
 from forgetting.record.origin import constants, origin
-from forgetting.record.polynomial import Learned, learned, which
 from forgetting.record.read import Record, read
 from forgetting.record.release import release
 from forgetting.record.remembered import remembered
-from forgetting.record.samples import Samples
 from forgetting.record.scores import score
 from forgetting.record.trace import Progress, errors_of, errors_without_forgetting, run
+from forgetting.record.which import build, listed, which
 from forgetting.words.errors import RecordError
 
 if TYPE_CHECKING:
@@ -59,6 +57,7 @@ def identify(
     fixed: Mapping[str, float] | None = None,
     prior: Mapping[str, tuple[float, float]] | None = None,
     noise: float | None = None,
+    feed_back: bool = False,
     level: float | None = None,
     ahead: int | Sequence[int] | None = None,
     time: str | None = None,
@@ -104,7 +103,8 @@ def identify(
     bounds : mapping of str to (float or None, float or None), optional
         Smallest and largest value of parameters, by the names of their regressors, as in
         ``{"R0": (0, None)}``. Estimates outside are moved inside by `forgetting.bounded`; errors
-        and predictions are those of the estimator, which does not know of bounds.
+        and predictions are those of the estimator, which does not know of bounds, but for
+        `feed_back`.
     fixed : mapping of str to float, optional
         Values of parameters that are known exactly: their part is taken from the output.
     prior : mapping of str to (float, float), optional
@@ -113,6 +113,9 @@ def identify(
     noise : float, optional
         Standard deviation of the noise, which priors are weighed against; if not given, the root
         mean square one-step error of the same model without the priors.
+    feed_back : bool, default False
+        Whether the estimator goes on from estimates that were moved into `bounds`; of a rule, as
+        the bank mixes several.
     level : float, optional
         Between 0 and 1: intervals about one-step predictions, see `Identification.intervals`.
     ahead : int or sequence of int, optional
@@ -151,7 +154,7 @@ def identify(
     >>> found.used, found.missing
     (200, 0)
     """
-    known = Known(bounds or {}, fixed or {}, prior or {}, noise)
+    known = Known(bounds or {}, fixed or {}, prior or {}, noise, feed_back)
     if level is not None:
         check_level(level)
     source = read(record, time, gap=gap, missing=missing)
@@ -161,27 +164,30 @@ def identify(
     if named is None:
         samples = build(source, formula, *columns, arx, offset)
     else:
-        if known:
-            raise RecordError(f"the model {model} takes no bounds, fixed values and priors")
         if half_life is not None or by_clock:
             raise RecordError(f"the model {model} forgets by samples; leave out what counts time")
         chosen = {"rule": rule, "gate": gate, "dtype": dtype}
         chosen["initial_covariance"] = initial_covariance
-        course = learned(source, *columns, named, offset, **chosen)
-        samples = course.samples
+        course = learned(source, *columns, named, offset, known, **chosen)
     question = None
     if ahead is not None:
-        if known.fixed:
-            raise RecordError("forecasts ahead do not take fixed values; leave out one of the two")
+        if known.fixed or (named is not None and known):
+            raise RecordError(
+                "forecasts ahead do not take fixed values, nor of a model with coloured noise what "
+                "else is known; leave out one of the two"
+            )
         model_settings = {} if named is None else {"offset": offset, **chosen}
         question = asked(source, *columns, (arx, named), ahead, level, **model_settings)
+    if course is not None:
+        known, samples = course.known, course.samples
     del record, source  # the table, which nobody else may hold, is as large as what is made of it
     release(len(samples.y))
-    known.check(samples.regressors, samples.outputs)
-    past = feedback(samples)
-    if known:
-        past = past.knowing(known.values(samples.regressors), known.left(samples.regressors))
-    samples = known.without_fixed(samples)
+    past = feedback(samples) if course is None else course.past
+    if course is None:
+        known.check(samples.regressors, samples.outputs)
+        if known:
+            past = past.knowing(known.values(samples.regressors), known.left(samples.regressors))
+        samples = known.without_fixed(samples)
     rule, time_of = with_time(rule, half_life, by_clock, samples)
     settings: dict[str, Any] = {
         "targets": samples.y.shape[1],
@@ -189,22 +195,27 @@ def identify(
         "dtype": dtype,
     }
     moves = initial_covariance is None and not known.of_constant(samples)
-    seen = known.from_priors(samples)
+    seen = known.from_priors(samples) if course is None else course.seen
     here = origin(seen, moves=moves)
     moved = here.moved(seen)
 
     def fresh() -> Any:
         return estimator_for(samples.phi.shape[1], rule, gate=gate, **settings)
 
-    if known.prior and noise is None:
+    if known.prior and known.noise is None:
         refuse_functions(rule, gate)
         known = replace(known, noise=noise_of(errors_of(fresh(), moved, time_of), moved))
     estimator = fresh()
     initial = np.asarray(estimator.covariance, dtype=np.float64)
     teach = partial(known.teach, regressors=samples.regressors)
+    known.refuse_bank(estimator)
     teach(estimator)
-    limits = Limits(*known.limits_from_priors(samples.regressors), here)
-    trace = run(estimator, moved, progress, time_of, limits.hold if known.bounds else None)
+    within = known.limits_from_priors(samples.regressors)
+    limits = Limits(*within, here)
+    hold = limits.hold if course is None else course.hold
+    told = known.bounds and not (known.feed_back and course is None)
+    kept = hold if told else None, within if known.feed_back else None
+    trace = run(estimator, moved, progress, time_of, *kept)
     trace = trace if course is None else course.put(trace)
     units = np.ones(len(initial)) if estimator.units is None else estimator.units
     plain = (
@@ -228,8 +239,9 @@ def identify(
     )
     judgement = judge(judged)  # before the trace is changed
     trace = here.back(trace) if course is None else course.back(trace)
-    limits.put(trace.theta)
-    known.add_priors(trace.theta, samples.regressors)
+    if course is None:
+        limits.put(trace.theta)
+        known.add_priors(trace.theta, samples.regressors)
     answer = None if question is None else question.answer(trace)
     return Identification(
         samples=samples,
@@ -286,30 +298,3 @@ def rule_of(estimator: Any, rule: Any) -> Any:
     if isinstance(estimator, fg.Bank):
         return estimator.members[int(np.argmax(estimator.weights))]
     return estimator.rule if isinstance(rule, str) else rule
-
-
-def build(
-    record: Record,
-    formula: str | None,
-    outputs: list[str],
-    inputs: list[str],
-    arx: Sequence[Each] | None,
-    offset: bool = True,
-) -> Samples:
-    """Choose between a formula and ARX, and refuse half of one with half of the other."""
-    if formula is not None:
-        if outputs or inputs or arx is not None:
-            raise RecordError("say the model by a formula, or by output, input and arx; not both")
-        # Imported here: a program that only wants ARX need not have formulaic.
-        from forgetting.record.regression import regression
-
-        return regression(record, formula)
-    if arx is None or not outputs:
-        raise RecordError("say the model: a formula, or output columns with ARX orders na,nb,nk")
-    return dynamics(record, outputs, inputs, arx, offset)
-
-
-def listed(names: str | Sequence[str]) -> list[str]:
-    """One name or several, as a list; numbers name columns, too."""
-    several = isinstance(names, Sequence) and not isinstance(names, str)
-    return [clean(name) for name in (names if several else [names])]

@@ -21,6 +21,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from forgetting._core import Bank
 from forgetting.record.origin import constant_of
 from forgetting.record.samples import Samples
 from forgetting.words.errors import RecordError
@@ -45,6 +46,9 @@ class Known:
         A value, and the standard deviation with which it is known, > 0.
     noise : float, optional
         Standard deviation of the noise of the output, > 0, which priors are weighed against.
+    feed_back : bool, default False
+        Whether the estimator goes on from estimates that were moved into their bounds, in place of
+        not knowing of bounds.
 
     Raises
     ------
@@ -62,6 +66,7 @@ class Known:
     fixed: Mapping[str, float] = field(default_factory=dict)
     prior: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     noise: float | None = None
+    feed_back: bool = False
 
     def __post_init__(self) -> None:
         for name, pair in self.bounds.items():
@@ -80,6 +85,8 @@ class Known:
             positive(f"the standard deviation of the prior of {name!r}", deviation)
         if self.noise is not None:
             positive("the noise", self.noise)
+        if self.feed_back and not self.bounds:
+            raise RecordError("what is fed back is bounds, and there are none; say bounds")
 
     def __bool__(self) -> bool:
         """Whether anything is known."""
@@ -114,6 +121,13 @@ class Known:
         pairs = [self.prior.get(name, (0.0, 0.0)) for name in regressors]
         return np.array([value for value, _ in pairs], dtype=np.float64)
 
+    def places(self, regressors: Sequence[str]) -> tuple[dict[int, float], dict[int, float]]:
+        """Fixed values, and those from which others are measured, by their places."""
+        every = list(enumerate(regressors))
+        fixed = {i: self.fixed[name] for i, name in every if name in self.fixed}
+        prior = {i: self.prior.get(name, (0.0,))[0] for i, name in every if self.from_zero(name)}
+        return fixed, {i: prior[i] for i in prior if i not in fixed}
+
     def values(self, regressors: Sequence[str]) -> Array:
         """What parameters are more than is estimated `from_priors` and `without_fixed`, (n,)."""
         return self.fixed_values(regressors) + self.prior_values(regressors)
@@ -125,15 +139,27 @@ class Known:
         return lower, upper
 
     def limits_from_priors(self, regressors: Sequence[str]) -> tuple[Array, Array]:
-        """The same of samples `from_priors`."""
+        """The same of samples `from_priors`, which are those of the estimator."""
         lower, upper = self.limits(regressors)
         values = self.prior_values(regressors)
         return lower - values, upper - values
 
     def of_constant(self, samples: Samples) -> bool:
-        """Whether there is a prior of a constant, which is then measured from zero."""
-        place = constant_of(samples)[0] if self.prior else None
-        return place is not None and samples.regressors[place] in self.prior
+        """Whether a constant is that of samples measured from zero, since it is known there."""
+        place = constant_of(samples)[0] if self.prior or self.feed_back else None
+        return place is not None and self.from_zero(samples.regressors[place])
+
+    def from_zero(self, name: str) -> bool:
+        """Whether the estimator is told something of this parameter."""
+        told = name in self.prior or name in self.fixed
+        return told or (self.feed_back and name in self.bounds)
+
+    def refuse_bank(self, estimator: Any) -> None:
+        """Refuse to feed bounds back to several rules at once."""
+        if self.feed_back and isinstance(estimator, Bank):
+            raise RecordError(
+                "bounds are fed back to one rule; say which, as the bank mixes several"
+            )
 
     def add_priors(self, theta: Array, regressors: Sequence[str]) -> None:
         """Make of estimates (T, n, 1) of samples `from_priors` those of the samples, in place.
@@ -220,6 +246,7 @@ class Known:
             "fixed": dict(self.fixed),
             "prior": {name: list(pair) for name, pair in self.prior.items()},
             "noise": self.noise,
+            "feed_back": self.feed_back,
         }
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 
 from forgetting._core import InvalidInput, structures
 from forgetting.models.named import NamedModel
-from forgetting.models.orders import Each, in_text
+from forgetting.models.orders import in_text
 from forgetting.models.signal_origin import first_values
 from forgetting.record.dynamics import columns, refuse_repeats, stretches
+from forgetting.record.known import Known
 from forgetting.record.read import Record
 from forgetting.record.samples import Samples
-from forgetting.record.trace import Trace
 from forgetting.tuning.signals import Signals
 from forgetting.words.errors import RecordError
 
@@ -44,21 +44,24 @@ class Recorded:
     named: NamedModel
     signals: Signals
 
-    def samples(self, phi: Array, y: Array) -> Samples:
+    def samples(self, phi: Array, y: Array, known: Known | None = None) -> Samples:
         """The linear regression that an estimator was given, (T, n) and (T,)."""
-        own = self.signals
+        own, known = self.signals, known or Known()
+        terms = own.model.terms(self.inputs, self.output)
+        fixed, prior = known.places(terms)
+        first = first_values(np.column_stack([own.inputs, own.output]))
         return Samples(
             np.ascontiguousarray(phi),
             y[:, None],
-            tuple(own.model.terms(self.inputs, self.output)),
+            tuple(terms[i] for i in known.left(terms)),
             (self.output,),
             described(self.named, self.output, self.inputs),
             self.record.clock,
             self.record.name,
             found=self.record.found,
             measured=own.y,
-            layout=own.model.layout(len(self.inputs)),
-            origin=own.model.origin(first_values(np.column_stack([own.inputs, own.output]))),
+            layout=own.model.layout(len(self.inputs)).without(fixed),
+            origin=own.model.origin(first, fixed, prior),
         ).check()
 
     def plain_samples(self) -> Samples:
@@ -93,96 +96,6 @@ def recorded(
     own = np.flatnonzero(rows < len(y))
     signals = Signals(made, np.ascontiguousarray(padded[:, 1:]), padded[:, 0].copy(), own)
     return Recorded(record, outputs[0], inputs, named, signals)
-
-
-@dataclass(frozen=True)
-class Learned:
-    """A record as a model with coloured noise saw it.
-
-    Attributes
-    ----------
-    samples : Samples
-        The linear regression that the estimator was given, with the outputs as they were measured.
-    theta : ndarray, shape (T, n)
-        Estimate after each sample, stable, with the constant of signals as they are.
-    error : ndarray, shape (T, 1)
-        One-step errors, NaN where the sample was left out.
-    error_without_forgetting : ndarray, shape (T, 1)
-        Those of the same model that never forgets.
-    trust : ndarray, shape (T,)
-        What each sample counted, in (0, 1]: less at the start.
-    """
-
-    samples: Samples
-    theta: Array
-    error: Array
-    error_without_forgetting: Array
-    trust: Array
-
-    def put(self, trace: Trace) -> Trace:
-        """The trace of the linear regression with the estimates and errors of the model."""
-        theta = self.theta[:, :, np.newaxis]
-        return replace(trace, theta=theta, error=self.error, trust=self.trust)
-
-    def back(self, trace: Trace) -> Trace:
-        """The trace with P of signals as they are; the variance of the offset changes in place.
-
-        It is exact after each piece of the run, and drawn straight in between.
-        """
-        origin = self.samples.origin
-        if origin is None:
-            return trace
-        path = zip(self.theta[trace.rows], trace.covariances, strict=True)
-        ends = [origin.covariance(theta, each)[-1, -1] for theta, each in path]
-        trace.variance[:, -1] = np.interp(np.arange(len(trace.variance)), trace.rows, ends)
-        return replace(trace, covariance=origin.covariance(self.theta[-1], trace.covariance))
-
-
-def learned(
-    record: Record,
-    outputs: Sequence[str],
-    inputs: Sequence[str],
-    named: NamedModel,
-    offset: bool = True,
-    **settings: Any,
-) -> Learned:
-    """Identify a model of one output over a record; see `recorded`."""
-    found = recorded(record, outputs, inputs, named, offset, **settings)
-    signals = found.signals
-
-    def course(rule: Any, *names: str) -> dict[str, Array]:
-        model = named.make(offset=offset, **settings | {"rule": rule})
-        u = signals.inputs if len(inputs) else None
-        kept = model.course(u, signals.output, names)
-        return {name: kept[name][signals.rows] for name in names}
-
-    kept = course(settings.get("rule", "auto"), "phi", "y", "theta", "error", "scale")
-    plain = course("none", "error")
-    samples = found.samples(kept["phi"], kept["y"])
-    trust = kept["scale"] ** 2
-    return Learned(samples, kept["theta"], kept["error"][:, None], plain["error"][:, None], trust)
-
-
-def which(
-    formula: str | None, arx: Sequence[Each] | None, model: str | None
-) -> tuple[Sequence[Each] | None, NamedModel | None]:
-    """What the model is: ARX orders, or a model that is not linear in its parameters, or neither.
-
-    Examples
-    --------
-    >>> which(None, None, "fir:nb=3"), which(None, None, "oe:nb=1,nf=1,nk=1")[0]
-    (((0, 3, 0), None), None)
-    """
-    if model is None:
-        return arx, None
-    if formula is not None or arx is not None:
-        raise RecordError("say the model once: as a model, by arx, or by a formula")
-    try:
-        named = NamedModel.parse(model)
-        orders = named.arx
-    except InvalidInput as error:
-        raise RecordError(str(error)) from None
-    return (None, named) if orders is None else ((orders.na, orders.nb, orders.nk), None)
 
 
 def with_gaps(parts: Sequence[slice], total: int, reach: int) -> NDArray[np.int64]:

@@ -111,16 +111,18 @@ def run(
     progress: Progress | None = None,
     time: Array | None = None,
     hold: Hold | None = None,
+    bounds: tuple[Array, Array] | None = None,
 ) -> Trace:
     """Run `estimator` over all samples in chunks; chunking changes no bit of the result.
 
     With the ``time`` of each, (T,), forgetting counts time in place of samples. `hold` keeps the
-    estimates within bounds.
+    estimates that are told within bounds; the estimator itself keeps to `bounds`, (n,) each.
     """
     total, n = len(samples), samples.parameters
     last = LastTime()
     history = History(total, n, samples.targets, isinstance(estimator, fg.Bank))
     wanted = (*history.outputs, "covariance") if hold else history.outputs
+    more: dict[str, Any] = {} if bounds is None else {"bounds": bounds}
     rows: list[int] = []
     covariances: list[NDArray[Any]] = []
     for start, stop in chunks(total, n, ROOM // n**2 if hold else total):
@@ -128,7 +130,7 @@ def run(
         try:
             phi, y = as_run(*samples.rows(part), estimator.dtype)
             when = None if time is None else last.ahead_of(time[part])
-            piece = estimator.run(phi, y, outputs=wanted, missing="skip", time=when)
+            piece = estimator.run(phi, y, outputs=wanted, missing="skip", time=when, **more)
         except (fg.InvalidInput, fg.NumericalRange) as error:
             raise type(error)(in_rows(str(error), start)) from None
         if time is not None:

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 
 from forgetting.models.named import NamedModel
 from forgetting.models.orders import Orders
-from forgetting.record.identify import build, listed
 from forgetting.record.missing import Words
 from forgetting.record.origin import origin
 from forgetting.record.polynomial import recorded
 from forgetting.record.read import Record, read
 from forgetting.record.samples import Samples
 from forgetting.record.usage import Usage
+from forgetting.record.which import build, listed
 from forgetting.tuning import structures
 from forgetting.tuning.choose import SHARE, choose
 from forgetting.tuning.orders import USUAL_NA, order_grid

@@ -21,6 +21,9 @@ class KnownParameters:
     known : Known
     regressors : sequence of str
         All of the model.
+    by_model : bool
+        Whether the model itself takes from its samples what is known, and says all of what is
+        estimated.
 
     Attributes
     ----------
@@ -37,8 +40,8 @@ class KnownParameters:
     ([[1.0]], [[4.0]])
     """
 
-    def __init__(self, known: Known, regressors: Sequence[str]) -> None:
-        self.known = known
+    def __init__(self, known: Known, regressors: Sequence[str], by_model: bool = False) -> None:
+        self.known, self.by_model = known, by_model
         self.left = known.left(regressors)
         self.names = tuple(regressors[i] for i in self.left)
         self._fixed = known.fixed_values(regressors)
@@ -49,11 +52,24 @@ class KnownParameters:
         if constant not in self.left:
             return None
         place = self.left.index(constant)
-        return None if self.names[place] in self.known.prior else place
+        return None if self.known.from_zero(self.names[place]) else place
+
+    @property
+    def limits(self) -> tuple[Array, Array] | None:
+        """Within which estimates are moved when they are told; None where they are there anyway."""
+        if not self.known.bounds or (self.known.feed_back and not self.by_model):
+            return None
+        of = self.known.limits if self.by_model else self.known.limits_from_priors
+        return of(self.names)
+
+    @property
+    def bounds(self) -> tuple[Array, Array] | None:
+        """Within which the estimator itself keeps."""
+        return self.known.limits_from_priors(self.names) if self.known.feed_back else None
 
     def taken(self, samples: Samples) -> Samples:
         """The samples as they are learned."""
-        if not (self.known.fixed or self.known.prior):
+        if self.by_model or not (self.known.fixed or self.known.prior):
             return samples
         rest = less(samples.y, samples.phi, self._fixed)
         phi = np.ascontiguousarray(samples.phi[:, self.left])
@@ -63,7 +79,8 @@ class KnownParameters:
         """What was learned, of all parameters and of the outputs `y` as they were measured."""
         if not self.known:
             return found
-        self.known.add_priors(found.theta, self.names)
+        if not self.by_model:
+            self.known.add_priors(found.theta, self.names)
         errors = found.standard_errors
         return replace(
             found,

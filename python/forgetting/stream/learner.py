@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 import forgetting as fg
 from forgetting.record.half_life import LastTime
 from forgetting.record.identify import estimator_for
+from forgetting.record.learned import inside
 from forgetting.record.limits import within
 from forgetting.record.origin import at_zero, weighted_sum
 from forgetting.record.trace import USED
@@ -76,6 +77,8 @@ class Learner:
         Whether the model makes regressors from its own estimates, and tells these by `Seen`.
     limits : pair of ndarray, shape (n,), or None
         Smallest and largest value of each parameter, within which estimates are said.
+    bounds : pair of ndarray, shape (n,), or None
+        Those that the estimator itself keeps to.
     """
 
     def __init__(
@@ -91,6 +94,7 @@ class Learner:
         also: tuple[str, ...],
         makes_regressors: bool = False,
         limits: tuple[Array, Array] | None = None,
+        bounds: tuple[Array, Array] | None = None,
     ) -> None:
         settings = {"targets": outputs, "initial_covariance": initial_covariance, "dtype": dtype}
         self.estimator = estimator_for(regressors, rule, gate=gate, **settings)
@@ -99,7 +103,7 @@ class Learner:
         self.wants_errors = standard_errors
         self.also = also
         self.makes_regressors = makes_regressors
-        self.limits = limits
+        self.limits, self.bounds = limits, bounds
         self.phi0: Array | None = None
         self.y0 = np.zeros(outputs)
         self.last = LastTime()
@@ -108,10 +112,14 @@ class Learner:
         """What was said of the first refused row since it was last taken."""
         self.total = np.zeros(outputs)
         """Sum of e² / (1 + leverage) over the used samples but the first n."""
+        self.counted = 0.0
+        """What these samples count."""
 
     def take(self, samples: Samples, time: Array | None = None) -> tuple[Estimates, Array, Array]:
         """Learn from rows; also the rows as they were measured from the origin."""
         phi, y = samples.phi, samples.y
+        if samples.seen is not None:
+            return self._of_model(samples.seen), phi, y
         start = self._find_origin(phi, y)
         # A difference of very large numbers is infinite, and refused like they are.
         with np.errstate(over="ignore"):
@@ -122,8 +130,6 @@ class Learner:
             for part in self._parts(len(phi))
         ]
         found = {key: np.concatenate([each[key] for each in pieces]) for key in pieces[0]}
-        if samples.seen is not None:
-            return self._of_model(found, samples.seen), moved, target
         return self._estimates(found, y, start), moved, target
 
     def _find_origin(self, phi: Array, y: Array) -> int:
@@ -139,8 +145,13 @@ class Learner:
         return first
 
     def _parts(self, total: int) -> list[slice]:
-        length = max(ROOM // self.n**2, 1) if self._needs_covariance else total
+        length = self.most if self._needs_covariance else total
         return [slice(start, start + length) for start in range(0, total, length)]
+
+    @property
+    def most(self) -> int:
+        """Rows that one run may have where P of all of them is needed."""
+        return max(ROOM // self.n**2, 1)
 
     @property
     def _needs_covariance(self) -> bool:
@@ -148,19 +159,21 @@ class Learner:
             return True
         return self.wants_errors and (self.constant is not None or self.makes_regressors)
 
-    def _run(self, phi: Array, y: Array, time: Array | None) -> dict[str, Any]:
-        wanted = ["theta", "error", "leverage", "skipped", "windup", *self.also]
+    @property
+    def wanted(self) -> tuple[str, ...]:
+        """Outputs of the estimator that are needed of each row, beside theta and error."""
+        wanted = ["leverage", "skipped", "windup", *self.also]
         if self._needs_covariance:
             wanted.append("covariance")
         elif self.wants_errors:
             wanted.append("variance")
-        brought = run_all(self.estimator, phi, y, tuple(dict.fromkeys(wanted)), time, self.last)
+        return tuple(dict.fromkeys(wanted))
+
+    def _run(self, phi: Array, y: Array, time: Array | None) -> dict[str, Any]:
+        names = ("theta", "error", *self.wanted)
+        brought = run_all(self.estimator, phi, y, names, time, self.last, self.bounds)
         self.reason = self.reason or brought.reason
-        found = {
-            name: values.astype(np.float64) if values.dtype.kind == "f" else values
-            for name, values in brought.outputs.items()
-        }
-        return found | {"refused": brought.refused}
+        return as_double(brought.outputs) | {"refused": brought.refused}
 
     def _estimates(self, found: dict[str, Any], y: Array, start: int) -> Estimates:
         total = len(y)
@@ -178,10 +191,10 @@ class Learner:
             theta, error, y - error, errors, noise, found["skipped"], found["refused"], others
         )
 
-    def _of_model(self, found: dict[str, Any], seen: Seen) -> Estimates:
+    def _of_model(self, seen: Seen) -> Estimates:
         """With the estimates and errors of the model itself, not of the linear regression."""
-        self.reason = self.reason or seen.reason
-        noise = self._noise(seen.error, found["leverage"], found["skipped"] == USED)
+        self.reason, found = self.reason or seen.reason, as_double(seen.outputs)
+        noise = self._noise(seen.error, found["leverage"], found["skipped"] == USED, seen.trust)
         errors = None
         if self.wants_errors:
             variance = np.einsum("tii->ti", found["covariance"]).copy()
@@ -190,14 +203,17 @@ class Learner:
                 products = row_sum(change, found["covariance"])
                 variance[:, -1] = row_sum(change, products[:, :, None])[:, 0]
             errors = np.sqrt(variance[:, :, None] * noise[:, None, :])
+        theta = seen.theta
+        if self.limits is not None:
+            theta = inside(theta, found["covariance"], self.limits, seen.origin)
         return Estimates(
-            seen.theta[:, :, None],
+            theta[:, :, None],
             seen.error,
             seen.measured - seen.error,
             errors,
             noise,
             found["skipped"],
-            found["refused"] | seen.refused,
+            seen.refused,
             {name: found[name] for name in (*self.also, "windup")},
         )
 
@@ -234,15 +250,20 @@ class Learner:
             covariance = at_zero(covariance, self._change, self.constant)
         theta[out, :, 0] = within(theta[out, :, 0], covariance, lower, upper)
 
-    def _noise(self, error: Array, leverage: Array, used: NDArray[np.bool_]) -> Array:
+    def _noise(
+        self, error: Array, leverage: Array, used: NDArray[np.bool_], trust: Array | float = 1.0
+    ) -> Array:
         """Running noise variance, as `forgetting.record.uncertainty` has it; sums go on."""
         order = self.used + np.cumsum(used)
-        counted = used & (order > self.n)
-        normalised = np.where(counted[:, None], error**2 / (1.0 + leverage[:, None]), 0.0)
-        sums = np.cumsum(np.vstack([self.total, normalised]), axis=0)[1:]
-        count = np.maximum(order - self.n, 0)[:, None]
+        counts = np.where(used & (order > self.n), trust, 0.0)[:, None]
+        each = error**2 / (1.0 + leverage[:, None]) * counts
+        each[counts[:, 0] == 0] = 0.0
+        sums = np.cumsum(np.vstack([self.total, each]), axis=0)[1:]
+        counted = np.cumsum(np.vstack([[self.counted], counts]), axis=0)[1:]
         self.used, self.total = int(order[-1]), sums[-1].copy()
-        return np.where(count > 0, sums / np.maximum(count, 1), np.nan)
+        self.counted = float(counted[-1, 0])
+        with np.errstate(invalid="ignore"):
+            return np.asarray(sums / counted)  # 0/0 before the first
 
     def state(self) -> dict[str, Any]:
         """As `restore` takes it."""
@@ -253,6 +274,7 @@ class Learner:
             "last": self.last.when,
             "used": self.used,
             "total": self.total.tolist(),
+            "counted": self.counted,
         }
 
     def restore(self, state: dict[str, Any]) -> None:
@@ -271,7 +293,15 @@ class Learner:
         self.phi0 = None if state["phi0"] is None else np.array(state["phi0"])
         self.y0, self.used = np.array(state["y0"]), state["used"]
         self.last = LastTime(state["last"])
-        self.total = np.array(state["total"])
+        self.total, self.counted = np.array(state["total"]), state["counted"]
+
+
+def as_double(outputs: dict[str, NDArray[Any]]) -> dict[str, Any]:
+    """Outputs of a run, numbers of 32 bits in 64."""
+    return {
+        name: values.astype(np.float64) if values.dtype.kind == "f" else values
+        for name, values in outputs.items()
+    }
 
 
 def row_sum(weights: Array, values: Array) -> Array:

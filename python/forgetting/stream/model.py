@@ -54,7 +54,7 @@ class Model(Protocol):
         ...
 
 
-def make_model(form: Form, own: Settings, rule: Any) -> Model:
+def make_model(form: Form, own: Settings) -> Model:
     """The model of a stream with these columns.
 
     Raises
@@ -73,13 +73,7 @@ def make_model(form: Form, own: Settings, rule: Any) -> Model:
         raise RecordError("say the model: a formula, or output columns, with inputs or ARX orders")
     outputs, inputs = named(form, own.output), named(form, own.input)
     if own.model is not None:
-        settings = {
-            "gate": own.gate,
-            "initial_covariance": own.initial_covariance,
-            "dtype": own.dtype,
-        }
-        model = NamedModel.parse(own.model)
-        return Signals(outputs, inputs, model, own.offset, rule, **settings)
+        return Signals(outputs, inputs, NamedModel.parse(own.model), own.offset)
     orders = (0, 1, 0) if own.arx is None else own.arx
     return Dynamics(outputs, inputs, orders, own.offset)
 

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -43,11 +45,12 @@ def run_all(
     names: tuple[str, ...],
     time: Array | None = None,
     last: LastTime | None = None,
+    bounds: tuple[Array, Array] | None = None,
 ) -> Brought:
     """Run over (T, n) regressors and (T, m) outputs, NaN where something is missing.
 
     With the time of each row, (T,), and that of the last complete one before, forgetting counts
-    time.
+    time. The estimator keeps to `bounds`, (n,) each.
 
     Examples
     --------
@@ -61,11 +64,12 @@ def run_all(
         phi = np.ascontiguousarray(phi, dtype=dtype)
         target = np.ascontiguousarray(y if y.shape[1] > 1 else y[:, 0], dtype=dtype)
     last = last or LastTime()
+    run_of = estimator.run if bounds is None else partial(estimator.run, bounds=bounds)
     when = None if time is None else last.ahead_of(time)
     try:
-        run = estimator.run(phi, target, outputs=names, missing="skip", time=when)
+        run = run_of(phi, target, outputs=names, missing="skip", time=when)
     except (fg.NumericalRange, fg.InvalidInput):
-        return run_some(estimator, phi, target, names, time, last)
+        return run_some(run_of, phi, target, names, time, last)
     if time is not None:
         last.note(time, complete(phi, target))
     outputs = {name: getattr(run, name) for name in names}
@@ -73,7 +77,7 @@ def run_all(
 
 
 def run_some(
-    estimator: Any,
+    run_of: Callable[..., Any],
     phi: Array,
     y: Array,
     names: tuple[str, ...],
@@ -92,7 +96,7 @@ def run_some(
         try:
             part = slice(at, stop)
             when = None if time is None else last.ahead_of(time[part])
-            run = estimator.run(phi[part], y[part], outputs=names, missing="skip", time=when)
+            run = run_of(phi[part], y[part], outputs=names, missing="skip", time=when)
         except fg.NumericalRange as error:
             place = SAMPLE.search(str(error))
             if place is None:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from forgetting.models.signal_origin import SignalOrigin
 from forgetting.stream.rows import Array, Flags
@@ -18,10 +20,13 @@ class Seen:
     ----------
     measured, error : ndarray, shape (T, 1)
         The output and its one-step error, NaN where the row was left out.
+    trust : ndarray, shape (T,)
+        What each row counts, in (0, 1]: less at the start.
     theta : ndarray, shape (T, n)
-        Estimate after each row, with the constant of signals as they are.
-    before : ndarray, shape (n,)
-        That of the row before.
+        Estimate after each row, with the constant of signals as they are, of the parameters that
+        are estimated.
+    outputs : dict of str to ndarray
+        What the estimator told of each row, see `Learner.wanted`.
     origin : SignalOrigin or None
         What it measures its signals from; None without a constant.
     refused : ndarray of bool, shape (T,)
@@ -32,24 +37,12 @@ class Seen:
 
     measured: Array
     error: Array
+    trust: Array
     theta: Array
-    before: Array
+    outputs: dict[str, NDArray[Any]]
     origin: SignalOrigin | None
     refused: Flags
     reason: str = ""
-
-    def spread(self, rows: Flags) -> Seen:
-        """For more rows, of which only those that are marked brought something."""
-        latest = np.cumsum(rows)
-        return Seen(
-            missing_else(self.measured, rows),
-            missing_else(self.error, rows),
-            np.vstack([self.before, self.theta])[latest],
-            self.before,
-            self.origin,
-            np.concatenate([[False], self.refused])[np.where(rows, latest, 0)],
-            self.reason,
-        )
 
 
 @dataclass(frozen=True)
@@ -72,8 +65,7 @@ class Samples:
 
     def spread(self, rows: Flags) -> Samples:
         """For more rows, of which only those that are marked are samples."""
-        seen = None if self.seen is None else self.seen.spread(rows)
-        return Samples(missing_else(self.phi, rows), missing_else(self.y, rows), seen)
+        return Samples(missing_else(self.phi, rows), missing_else(self.y, rows))
 
 
 def missing_else(values: Array, rows: Flags) -> Array:

@@ -11,10 +11,10 @@ from numpy.typing import ArrayLike
 
 from forgetting.models.orders import Each
 from forgetting.record.known import Bounds, Known
-from forgetting.record.polynomial import which
+from forgetting.record.which import which
 from forgetting.words.errors import RecordError
 
-OF_KNOWN = ("bounds", "fixed", "prior", "noise")
+OF_KNOWN = ("bounds", "fixed", "prior", "noise", "feed_back")
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Settings:
         Whether an ARX model or a regression by columns has a constant.
     rule, half_life, gate, initial_covariance, dtype
         The estimator; without a rule a bank.
-    bounds, fixed, prior, noise
+    bounds, fixed, prior, noise, feed_back
         What is known of parameters; a prior needs the noise.
     time, gap, missing
         The clock, its gaps in seconds, and what stands for missing values.
@@ -60,6 +60,7 @@ class Settings:
     fixed: Mapping[str, float] = field(default_factory=dict)
     prior: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     noise: float | None = None
+    feed_back: bool = False
     time: str | None = None
     gap: float | None = None
     missing: Sequence[str] = ()
@@ -72,8 +73,6 @@ class Settings:
             raise RecordError(
                 f"the model {self.model} forgets by samples; leave out what counts time"
             )
-        if named is not None and Known(self.bounds, self.fixed, self.prior, self.noise):
-            raise RecordError(f"the model {self.model} takes no bounds, fixed values and priors")
         object.__setattr__(self, "arx", arx)
         object.__setattr__(self, "model", None if named is None else str(named))
 
@@ -85,7 +84,7 @@ class Settings:
         RecordError
             For a parameter that is not there, or a prior without the noise.
         """
-        known = Known(self.bounds, self.fixed, self.prior, self.noise)
+        known = Known(self.bounds, self.fixed, self.prior, self.noise, self.feed_back)
         if known.prior and known.noise is None:
             raise RecordError(
                 "a prior is weighed against the noise, which a stream does not tell beforehand; "

@@ -137,10 +137,10 @@ class Stream:
         self.by_clock = own.half_life is not None and not counts(own.half_life)
         if self.by_clock and stamps is None:
             raise RecordError("a half-life in time needs a clock, and the stream has none")
-        model: Model = make_model(form, own, rule)
+        model: Model = make_model(form, own)
         self.model = model
         known = own.known(model.regressors, model.outputs)
-        self.known = KnownParameters(known, model.regressors)
+        self.known = KnownParameters(known, model.regressors, isinstance(model, Signals))
         names = field_names.chosen(self.fields, stamps is not None, own.rule == "auto")
         self.learner = Learner(
             len(self.known.names),
@@ -153,9 +153,13 @@ class Stream:
             self.standard_errors or "standard_errors" in names,
             field_names.wanted(names),
             isinstance(model, Signals),
-            known.limits_from_priors(self.known.names) if known.bounds else None,
+            self.known.limits,
+            self.known.bounds,
         )
+        known.refuse_bank(self.learner.estimator)
         known.teach(self.learner.estimator, self.known.names)
+        if isinstance(model, Signals):
+            model.begin(known, self.learner)
         bank = self.learner.estimator if in_bank(self.learner.estimator) else None
         members = 0 if bank is None else len(bank.members)
         described = field_names.described(names, model.outputs, model.regressors, members)
@@ -182,6 +186,8 @@ class Stream:
 
     def _samples(self, rows: Rows, marks: Marks) -> Samples:
         """Regressors and outputs; a repeated row has none, and no lag sees it."""
+        if isinstance(self.model, Signals):
+            return self.model.samples(rows.values, marks.gap, marks.repeated)
         if not marks.repeated.any():
             return self.model.samples(rows.values, marks.gap)
         new = ~marks.repeated

@@ -1,7 +1,7 @@
 //! A bank of estimators, of any type.
 
 pub(crate) mod make;
-mod record;
+pub(crate) mod record;
 
 pub use make::{BankSettings, Member};
 pub use record::BANK_OUTPUTS;

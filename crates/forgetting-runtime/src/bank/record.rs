@@ -10,6 +10,10 @@ use crate::number::{Array, Elements, Number, View};
 use forgetting::bank::{Bank, BankOutcome, BankUpdate, Kept};
 use forgetting::{Answer, Memory, Skip};
 
+/// Why a bank does not feed bounds back.
+pub(crate) const ONE_RULE: &str =
+    "bounds are fed back to one rule; a bank mixes several, each with a P of its own";
+
 /// Names of the outputs that are kept when none are named.
 const DEFAULT_OUTPUTS: [&str; 6] =
     ["theta", "error", "leverage", "forgetting_factor", "skipped", "memory"];
@@ -35,7 +39,7 @@ pub const BANK_OUTPUTS: [&str; 11] = [
 ];
 
 /// The outputs that were asked for, as they grow.
-struct Outputs<T> {
+pub(crate) struct Outputs<T> {
     theta: Option<Vec<T>>,
     error: Option<Vec<T>>,
     leverage: Option<Vec<T>>,
@@ -58,6 +62,9 @@ pub(super) fn run<T: Number>(
     go_on: GoOn<'_>,
 ) -> Result<Run, Error> {
     let sizes = Sizes::of(bank.memory(), &phi, &y)?;
+    if options.bounds.is_some() {
+        return Err(Error::unsupported(ONE_RULE));
+    }
     let count = bank.weights().len();
     let outputs = options.outputs.unwrap_or(&DEFAULT_OUTPUTS);
     let mut outputs = Outputs::<T>::named(outputs, sizes, count)?;
@@ -107,7 +114,7 @@ fn take<T: Number>(
 
 impl<T: Number> Outputs<T> {
     /// Room for the outputs of these names.
-    fn named(names: &[&str], sizes: Sizes, count: usize) -> Result<Self, Error> {
+    pub fn named(names: &[&str], sizes: Sizes, count: usize) -> Result<Self, Error> {
         if let Some(name) = names.iter().find(|name| !BANK_OUTPUTS.contains(name)) {
             return Err(Error::Output { name: (*name).into(), allowed: BANK_OUTPUTS.join(", ") });
         }
@@ -182,25 +189,29 @@ impl<T: Number> Outputs<T> {
         self.used += outcomes.len();
     }
 
-    /// Lets the bank take the sample at `k`, or leaves it out, and notes what came of it.
-    fn take(
+    /// Lets the bank take the sample at `k`, or leaves it out, and notes what came of it; why it was not
+    /// used, if it was not.
+    pub fn take(
         &mut self,
         bank: &mut Bank<T>,
         (record, time): (&Record<'_, T>, Option<&mut RecordTime<'_>>),
         k: usize,
-    ) -> Result<(), forgetting::Error> {
+    ) -> Result<Option<Skip>, forgetting::Error> {
         let Sizes { parameters: n, rows: p, targets: m, .. } = record.sizes;
         let phi = &record.phi[k * p * n..(k + 1) * p * n];
         let y = &record.y[k * p * m..(k + 1) * p * m];
         if let Some(weights) = &mut self.weights {
             weights.extend_from_slice(bank.weights());
         }
-        if record.missing == Missing::Skip && is_missing(phi, y) {
+        let skipped = if record.missing == Missing::Skip && is_missing(phi, y) {
             self.note_missing(p * m);
+            Some(Skip::Missing)
         } else {
             let elapsed = time.map_or(Ok(T::ONE), |time| time.elapsed(k))?;
-            self.note(&bank.update_after(elapsed, phi, y, record.noise.at(k, p))?);
-        }
+            let update = bank.update_after(elapsed, phi, y, record.noise.at(k, p))?;
+            self.note(&update);
+            update.skipped
+        };
         if let Some(theta) = &mut self.theta {
             by_parameter(bank, theta);
         }
@@ -208,7 +219,7 @@ impl<T: Number> Outputs<T> {
             memory.push(bank.memory_in_samples());
         }
         self.note_covariance(bank);
-        Ok(())
+        Ok(skipped)
     }
 
     fn note(&mut self, update: &BankUpdate<'_, T>) {
@@ -250,7 +261,7 @@ impl<T: Number> Outputs<T> {
     }
 
     /// The outputs as arrays, errors in the shape of y.
-    fn finish(self, sizes: Sizes, count: usize, per_row: &[usize]) -> Run {
+    pub fn finish(self, sizes: Sizes, count: usize, per_row: &[usize]) -> Run {
         let Sizes { samples, parameters: n, targets: m, .. } = sizes;
         // one target has no dimension of its own
         let theta = [samples, n, m][..3 - usize::from(m == 1)].to_vec();

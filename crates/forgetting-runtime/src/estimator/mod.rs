@@ -6,7 +6,7 @@ pub(crate) mod record;
 
 pub(crate) use accessors::{covariance, extremes, units};
 pub use health::Health;
-pub use record::{GoOn, Run, RunOptions};
+pub use record::{Bounds, GoOn, Run, RunOptions};
 
 use crate::choice::{has_function, Description};
 use crate::configure::{self, check_copies};

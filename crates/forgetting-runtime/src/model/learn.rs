@@ -1,23 +1,29 @@
 //! A whole record through a model and the estimator behind it.
 
+use super::recursion::Recursion;
+use crate::bank::record::ONE_RULE;
 use crate::bank::Bank;
 use crate::error::Error;
-use crate::estimator::record::Pause;
+use crate::estimator::record::{Bounds, Pause, Record, RecordBounds, RecordNoise, Sizes};
 use crate::estimator::{Estimator, GoOn, Run};
+use crate::missing::Missing;
 use crate::number::{each, Array, Elements, Number, View};
 use crate::shape;
 use forgetting::models::Polynomial;
-use forgetting::{bank, AnyEstimator, Noise, Skip};
+use forgetting::Skip;
 
 /// Names of what a model can tell of each sample.
 ///
 /// | output | shape | |
 /// |---|---|---|
-/// | `phi`, `y` | (T, n), (T,) | what the estimator was given: ψ and y − φθ + ψθ, both times a scale; NaN where it was not |
+/// | `phi`, `y` | (T, n), (T,) | what the estimator was given: ψ and y − φθ + ψθ, both times a scale; NaN where it was not; of the parameters that are estimated, and less what is known of θ |
 /// | `error` | (T,) | y − φθ with the θ of before; NaN where a value is missing |
 /// | `theta` | (T, n) | the estimate after each sample |
 /// | `scale` | (T,) | the root of how far the sample was trusted, below 1 at the start |
 /// | `skipped` | (T,) | why the estimator did not use the sample, 0 if it did |
+///
+/// What else is named is an output of the estimator or the bank, see [`Run`], of the parameters that are
+/// estimated.
 pub const MODEL_OUTPUTS: [&str; 6] = ["phi", "y", "error", "theta", "scale", "skipped"];
 
 /// Whatever learns from regressors.
@@ -34,34 +40,6 @@ impl Learner<'_> {
             Self::Estimator(own) => (own.parameters(), own.rows(), own.targets()),
             Self::Bank(own) => (own.parameters(), own.rows(), own.targets()),
         }
-    }
-}
-
-/// One sample at a time, whatever takes it.
-trait Recursion<T> {
-    /// Takes a sample; why it was not used, if it was not.
-    fn take(&mut self, phi: &[T], y: T) -> Result<Option<Skip>, forgetting::Error>;
-    /// The estimate.
-    fn theta(&self) -> &[T];
-}
-
-impl<T: Number> Recursion<T> for AnyEstimator<T> {
-    fn take(&mut self, phi: &[T], y: T) -> Result<Option<Skip>, forgetting::Error> {
-        self.update(phi, &[y]).map(|update| update.skipped)
-    }
-
-    fn theta(&self) -> &[T] {
-        AnyEstimator::theta(self)
-    }
-}
-
-impl<T: Number> Recursion<T> for bank::Bank<T> {
-    fn take(&mut self, phi: &[T], y: T) -> Result<Option<Skip>, forgetting::Error> {
-        self.update(phi, &[y], Noise::Unit).map(|update| update.skipped)
-    }
-
-    fn theta(&self) -> &[T] {
-        bank::Bank::theta(self)
     }
 }
 
@@ -82,29 +60,45 @@ pub(super) fn learn(
     model: &mut Polynomial,
     learner: Learner<'_>,
     (inputs, y): (View<'_>, View<'_>),
-    names: &[&str],
+    (names, bounds): (&[&str], Option<Bounds<'_>>),
     go_on: GoOn<'_>,
 ) -> Result<Run, Error> {
     let (n, rows, targets) = learner.sizes();
-    let own = model.orders().parameters();
+    let own = model.estimated().len();
     if (n, rows, targets) != (own, 1, 1) {
         let reason = format!("the estimator must have {own} parameters, one row and one target");
         return Err(Error::unsupported(reason));
     }
     let samples = check_shapes(model, &inputs, &y)?;
-    let mut outputs = Outputs::named(names)?;
+    let (own, others): (Vec<&str>, Vec<&str>) =
+        names.iter().partition(|name| MODEL_OUTPUTS.contains(name));
+    let mut outputs = Outputs::named(&own);
+    let sizes = Sizes { samples, parameters: n, rows: 1, targets: 1 };
     let (inputs, y) = (inputs.numbers().to_f64(), y.numbers().to_f64());
     let record = Signals { inputs: &inputs, count: model.orders().inputs.len(), y: &y };
-    let taken = match learner {
+    let mut found = match learner {
         Learner::Estimator(own) => each!(&mut own.typed, estimator => {
-            estimator.all_or_nothing(|own| run(model, own, record, &mut outputs, go_on))
+            let bounds = bounds.as_ref().map(|own| RecordBounds::read(own, estimator)).transpose()?;
+            let mut kept = estimator.outputs(&others, sizes)?;
+            let both = (&mut outputs, &mut kept);
+            let taken =
+                estimator.all_or_nothing(|own| run(model, own, (record, bounds), both, go_on));
+            let found = estimator.finish(kept, sizes);
+            taken.map(|()| found)
         }),
+        Learner::Bank(_) if bounds.is_some() => return Err(Error::unsupported(ONE_RULE)),
         Learner::Bank(own) => each!(&mut own.typed, bank => {
-            bank.all_or_nothing(|own| run(model, own, record, &mut outputs, go_on))
+            let mut kept = bank.outputs(&others, sizes)?;
+            let both = (&mut outputs, &mut kept);
+            let taken = bank.all_or_nothing(|own| run(model, own, (record, None), both, go_on));
+            let found = bank.finish(kept, sizes);
+            taken.map(|()| found)
         }),
-    };
-    taken.map_err(|(sample, error)| Error::Sample { sample, error })?;
-    Ok(outputs.finish(samples, n))
+    }
+    .map_err(|(sample, error)| Error::Sample { sample, error })?;
+    let own = outputs.finish(samples, (model.orders().parameters(), n));
+    found.outputs.extend(own.outputs);
+    Ok(Run { used: own.used, ..found })
 }
 
 /// Predicts each y one sample ahead, with θ as it is.
@@ -153,30 +147,32 @@ impl<'a> Signals<'a> {
 fn run<T: Number, R: Recursion<T>>(
     model: &mut Polynomial,
     recursion: &mut R,
-    record: Signals<'_>,
-    outputs: &mut Outputs,
+    (record, mut bounds): (Signals<'_>, Option<RecordBounds>),
+    (outputs, others): (&mut Outputs, &mut R::Outputs),
     go_on: GoOn<'_>,
 ) -> Result<(), (usize, forgetting::Error)> {
-    let n = model.orders().parameters();
-    let (mut psi, mut phi) = (vec![0.0; n], vec![T::ZERO; n]);
-    let mut theta: Vec<f64> = recursion.theta().iter().map(|x| x.to_f64()).collect();
-    let mut pause = Pause::new(go_on, 1, n);
+    let estimated = model.estimated().to_vec();
+    let (n, count) = (model.orders().parameters(), estimated.len());
+    let sizes = Sizes { samples: 1, parameters: count, rows: 1, targets: 1 };
+    let (mut psi, mut theta) = (vec![0.0; n], vec![0.0; n]);
+    let (mut given, mut phi) = (vec![0.0; count], vec![T::ZERO; count]);
+    let (missing, mut pause) = (Missing::Skip, Pause::new(go_on, 1, count));
     for (k, &y) in record.y.iter().enumerate() {
         let inputs = record.inputs_of(k);
         check(inputs, y).map_err(|error| (k, error))?;
         let sample = model.regress(inputs, &mut psi);
-        let given = sample.complete && !y.is_nan();
-        let target = sample.scale * (y + sample.shift);
-        let mut skipped = Some(Skip::Missing);
-        if given {
-            for (own, &x) in phi.iter_mut().zip(&psi) {
-                *own = T::from_f64(sample.scale * x);
-            }
-            skipped = recursion.take(&phi, T::from_f64(target)).map_err(|error| (k, error))?;
-            theta.iter_mut().zip(recursion.theta()).for_each(|(own, x)| *own = x.to_f64());
+        let complete = sample.complete && !y.is_nan();
+        let target = if complete { sample.scale * (y + sample.shift) } else { f64::NAN };
+        for ((own, number), &place) in given.iter_mut().zip(&mut phi).zip(&estimated) {
+            *own = sample.scale * psi[place];
+            *number = T::from_f64(*own);
         }
+        let target_ = [T::from_f64(target)];
+        let one = Record { sizes, phi: &phi, y: &target_, noise: RecordNoise::Unit, missing };
+        let skipped = recursion.take(&one, bounds.as_mut(), others).map_err(|error| (k, error))?;
+        model.complete(recursion.theta().iter().map(|x| x.to_f64()), &mut theta);
         model.observe(y, &theta);
-        outputs.note(&sample, (&psi, target, given), y, model);
+        outputs.note(&sample, (&given, target), y, model);
         outputs.note_skipped(skipped);
         pause.after(1).map_err(|error| (k, error))?;
     }
@@ -199,12 +195,9 @@ fn check(inputs: &[f64], y: f64) -> Result<(), forgetting::Error> {
 
 impl Outputs {
     /// None of a sample yet.
-    fn named(names: &[&str]) -> Result<Self, Error> {
-        if let Some(name) = names.iter().find(|name| !MODEL_OUTPUTS.contains(name)) {
-            return Err(Error::Output { name: (*name).into(), allowed: MODEL_OUTPUTS.join(", ") });
-        }
+    fn named(names: &[&str]) -> Self {
         let room = |name| names.contains(&name).then(Vec::new);
-        Ok(Self {
+        Self {
             phi: room("phi"),
             y: room("y"),
             error: room("error"),
@@ -212,26 +205,27 @@ impl Outputs {
             scale: room("scale"),
             skipped: names.contains(&"skipped").then(Vec::new),
             used: 0,
-        })
+        }
     }
 
     fn note(
         &mut self,
         sample: &forgetting::models::Linearised,
-        (psi, target, given): (&[f64], f64, bool),
+        (given, target): (&[f64], f64),
         y: f64,
         model: &Polynomial,
     ) {
-        let known = |value: f64| if given { value } else { f64::NAN };
+        // a target that is missing says that the estimator was not given the sample
+        let known = |value: f64| if target.is_nan() { f64::NAN } else { value };
         if let Some(phi) = &mut self.phi {
-            phi.extend(psi.iter().map(|x| known(sample.scale * x)));
+            phi.extend(given.iter().map(|&x| known(x)));
         }
-        push(&mut self.y, known(target));
+        push(&mut self.y, target);
         push(&mut self.error, known(y - sample.prediction));
         push(&mut self.scale, sample.scale);
         if let Some(kept) = &mut self.theta {
             let start = kept.len();
-            kept.resize(start + psi.len(), 0.0);
+            kept.resize(start + model.orders().parameters(), 0.0);
             model.express(&mut kept[start..]);
         }
     }
@@ -241,10 +235,10 @@ impl Outputs {
         push(&mut self.skipped, skipped.map_or(0, Skip::code));
     }
 
-    fn finish(self, samples: usize, n: usize) -> Run {
+    fn finish(self, samples: usize, (n, estimated): (usize, usize)) -> Run {
         let numbers = |numbers: Option<Vec<f64>>| numbers.map(Elements::F64);
         let outputs = [
-            ("phi", numbers(self.phi), vec![samples, n]),
+            ("phi", numbers(self.phi), vec![samples, estimated]),
             ("y", numbers(self.y), vec![samples]),
             ("error", numbers(self.error), vec![samples]),
             ("theta", numbers(self.theta), vec![samples, n]),

@@ -1,13 +1,14 @@
 //! A model whose regressor needs what it has made of earlier samples, with the estimator behind it.
 
 mod learn;
+mod recursion;
 
 pub use learn::{Learner, MODEL_OUTPUTS};
 
 use crate::error::Error;
-use crate::estimator::{GoOn, Run};
+use crate::estimator::{Bounds, GoOn, Run};
 use crate::number::{Array, Elements, View};
-use forgetting::models::{Method, Orders, Polynomial};
+use forgetting::models::{Given, Method, Orders, Polynomial};
 
 /// What makes regressors of signals, see [`Polynomial`]; in `f64` whatever the estimator computes in.
 #[derive(Clone, Debug)]
@@ -32,6 +33,20 @@ impl Model {
         Ok(Self { polynomial: Polynomial::new(orders, method)? })
     }
 
+    /// The same at rest where something is known of its parameters, see [`Polynomial::knowing`].
+    ///
+    /// # Errors
+    /// [`Error`] says what is wrong with what is known.
+    pub fn knowing(self, given: &[Given]) -> Result<Self, Error> {
+        Ok(Self { polynomial: self.polynomial.knowing(given)? })
+    }
+
+    /// Parameters that are estimated.
+    #[must_use]
+    pub fn estimated(&self) -> usize {
+        self.polynomial.estimated().len()
+    }
+
     /// The model that [`Model::to_bytes`] saved, bit for bit.
     ///
     /// # Errors
@@ -47,7 +62,9 @@ impl Model {
     }
 
     /// Takes a record of T samples: `inputs` (T, inputs), `y` (T,), NaN for what is missing, through
-    /// `learner`, and returns those of [`MODEL_OUTPUTS`] that are named.
+    /// `learner`, and returns those of [`MODEL_OUTPUTS`] that are named, and of the outputs of the
+    /// learner. Within `bounds` of the parameters that are estimated, as the learner has them, θ is moved
+    /// after each sample, as by [`RunOptions`](crate::RunOptions).
     ///
     /// # Errors
     /// [`Error`] names the argument or the sample that does not fit; nothing has changed.
@@ -55,11 +72,12 @@ impl Model {
         &mut self,
         learner: Learner<'_>,
         (inputs, y): (View<'_>, View<'_>),
-        outputs: &[&str],
+        (outputs, bounds): (&[&str], Option<Bounds<'_>>),
         go_on: GoOn<'_>,
     ) -> Result<Run, Error> {
         let before = self.polynomial.clone();
-        let learned = learn::learn(&mut self.polynomial, learner, (inputs, y), outputs, go_on);
+        let (model, how) = (&mut self.polynomial, (outputs, bounds));
+        let learned = learn::learn(model, learner, (inputs, y), how, go_on);
         learned.inspect_err(|_| self.polynomial = before)
     }
 

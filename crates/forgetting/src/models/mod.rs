@@ -10,6 +10,7 @@
 //! all rules, rates, weightings, gates and banks serve.
 
 mod history;
+mod known;
 mod linearised;
 mod orders;
 mod origin;
@@ -19,6 +20,7 @@ mod signals;
 mod stable;
 mod structure;
 
+pub use known::Given;
 pub use linearised::Linearised;
 pub use orders::{InputOrders, Orders};
 pub use polynomial::{Method, Polynomial};

@@ -14,6 +14,7 @@
 //! At first θ is far from where it will end and ψ says little: filters are contracted towards 1,
 //! and samples count less (both fade out over some forty samples a parameter).
 
+use super::known::{Given, Known};
 use super::linearised::Linearised;
 use super::orders::{Layout, Orders};
 use super::origin::Origin;
@@ -51,6 +52,7 @@ pub struct Polynomial {
     orders: Orders,
     method: Method,
     layout: Layout,
+    known: Known,
     /// where the prediction is made linear: stable, and the estimate otherwise
     theta: Vec<f64>,
     origin: Origin,
@@ -80,6 +82,7 @@ impl Polynomial {
             signals: Signals::new(&orders),
             origin: Origin::new(orders.inputs.len(), orders.constant),
             incomplete: orders.reach() as u64,
+            known: Known::nothing(n),
             theta: vec![0.0; n],
             phi: vec![0.0; n],
             candidate: vec![0.0; n],
@@ -94,6 +97,53 @@ impl Polynomial {
         };
         model.set_filters();
         Ok(model)
+    }
+
+    /// The same at rest where something is known of its parameters, in the order of θ: θ begins there. A
+    /// constant of which something is known is that of signals measured from zero.
+    ///
+    /// # Errors
+    /// [`Error`] names the value that is not finite, or says that C or F is unstable with these values,
+    /// or that nothing is left to estimate.
+    pub fn knowing(mut self, given: &[Given]) -> Result<Self, Error> {
+        Error::check_length("given", given.len(), self.theta.len())?;
+        self.known = Known::new(given)?;
+        let theta = self.known.values.clone();
+        if !self.keeps_stable(&theta) {
+            let reason = "C or F is unstable with the values that are known of its coefficients";
+            return Err(Error::Unsupported { reason });
+        }
+        self.theta = theta;
+        let from_zero = given[self.layout.constant.clone()].iter().any(|x| *x != Given::Nothing);
+        self.origin = Origin::new(self.orders.inputs.len(), self.orders.constant && !from_zero);
+        self.set_filters();
+        Ok(self)
+    }
+
+    /// What is known of each parameter.
+    #[must_use]
+    pub fn given(&self) -> &[Given] {
+        &self.known.given
+    }
+
+    /// Whether anything is known.
+    #[must_use]
+    pub fn is_informed(&self) -> bool {
+        self.known.is_something()
+    }
+
+    /// Places of the parameters that are estimated, in ascending order.
+    #[must_use]
+    pub fn estimated(&self) -> &[usize] {
+        &self.known.left
+    }
+
+    /// Writes to `theta` all parameters, where an estimator says `found` of those that are estimated.
+    pub fn complete(&self, found: impl Iterator<Item = f64>, theta: &mut [f64]) {
+        theta.copy_from_slice(&self.known.values);
+        for (&place, value) in self.known.left.iter().zip(found) {
+            theta[place] += value;
+        }
     }
 
     /// Its orders.
@@ -158,9 +208,10 @@ impl Polynomial {
         }
         let prediction = product(&self.phi, &self.theta);
         let origin = self.origin.of_output();
+        let estimated = self.theta.iter().zip(&self.known.values).map(|(own, known)| own - known);
         Linearised {
             prediction: prediction + origin,
-            shift: product(psi, &self.theta) - prediction - origin,
+            shift: psi.iter().zip(estimated).map(|(x, c)| x * c).sum::<f64>() - prediction - origin,
             scale: self.scale(),
             complete: self.incomplete == 0 && self.origin.is_known(),
         }

@@ -61,6 +61,11 @@ impl<'a> Reader<'a> {
         self.array().map(|bytes| usize::from(u16::from_le_bytes(bytes)))
     }
 
+    #[cfg(feature = "alloc")]
+    pub fn real(&mut self) -> Result<f64, Error> {
+        self.array().map(f64::from_le_bytes)
+    }
+
     fn word(&mut self) -> Result<&'a str, Error> {
         let length = usize::from(u16::from_le_bytes(self.array()?));
         let text = core::str::from_utf8(self.take(length)?);

@@ -1,5 +1,6 @@
 //! A whole record in one call, all or nothing.
 
+mod bounds;
 mod noise;
 mod outputs;
 mod pause;
@@ -7,15 +8,17 @@ mod run;
 mod shapes;
 mod time;
 
+pub use bounds::Bounds;
 pub use run::Run;
 
 use crate::configure::check_copies;
 use crate::error::Error;
 use crate::missing::{is_missing, Missing};
 use crate::number::{Number, View};
-use forgetting::{AnyEstimator, Outcome};
+pub(crate) use bounds::RecordBounds;
+use forgetting::{AnyEstimator, Outcome, Skip};
 pub(crate) use noise::RecordNoise;
-use outputs::Outputs;
+pub(crate) use outputs::Outputs;
 pub use pause::GoOn;
 pub(crate) use pause::Pause;
 pub(crate) use shapes::Sizes;
@@ -32,13 +35,15 @@ pub struct RunOptions<'a> {
     /// decreasing, in the unit of time in which forgetting is stated. If not given, each sample takes
     /// one unit, as does the first of (T,).
     pub time: Option<View<'a>>,
+    /// within which θ is moved after each sample, nearest in the metric of P⁻¹, to go on from there
+    pub bounds: Option<Bounds<'a>>,
 }
 
 impl<'a> RunOptions<'a> {
-    /// These, without times.
+    /// These, without times or bounds.
     #[must_use]
     pub fn new(missing: Missing, outputs: Option<&'a [&'a str]>) -> Self {
-        Self { missing, outputs, time: None }
+        Self { missing, outputs, time: None, bounds: None }
     }
 }
 
@@ -69,13 +74,15 @@ pub(super) fn run<T: Number>(
         _ => RecordNoise::Unit,
     };
     let mut time = options.time.map(|time| RecordTime::read(time, sizes)).transpose()?;
+    let bounds = options.bounds.as_ref();
+    let mut bounds = bounds.map(|bounds| RecordBounds::read(bounds, estimator)).transpose()?;
     let record = Record { sizes, phi: &phi, y: &y, noise, missing: options.missing };
     // the state of before is kept until all is done
     check_copies(estimator, 1)?;
     outputs.prepare(estimator);
     let mut pause = Pause::new(go_on, sizes.rows, sizes.parameters);
     let taken = estimator.all_or_nothing(|estimator| {
-        take(estimator, (&record, time.as_mut()), &mut outputs, &mut pause)
+        take(estimator, (&record, time.as_mut(), bounds.as_mut()), &mut outputs, &mut pause)
     });
     estimator.keep_innovations(false);
     estimator.keep_prior(false);
@@ -88,20 +95,21 @@ const MOST: usize = 64;
 
 fn take<T: Number>(
     estimator: &mut AnyEstimator<T>,
-    (record, mut time): (&Record<'_, T>, Option<&mut RecordTime<'_>>),
+    (record, mut time, mut bounds): Sample<'_, '_, T>,
     outputs: &mut Outputs<T>,
     pause: &mut Pause<'_>,
 ) -> Result<(), (usize, forgetting::Error)> {
     let together = matches!(record.noise, RecordNoise::Unit)
         && !outputs.need_every_state()
         && time.is_none()
+        && bounds.is_none()
         && estimator.takes_many();
     let mut outcomes = [Outcome::default(); MOST];
     let mut k = 0;
     while k < record.sizes.samples {
         let taken = if together { many(estimator, record, k, &mut outcomes, outputs) } else { 0 };
         if taken == 0 {
-            one(estimator, (record, time.as_deref_mut()), k, outputs)
+            one(estimator, (record, time.as_deref_mut(), bounds.as_deref_mut()), k, outputs)
                 .map_err(|error| (k, error))?;
         }
         pause.after(taken.max(1)).map_err(|error| (k, error))?;
@@ -129,25 +137,35 @@ fn many<T: Number>(
     taken
 }
 
-/// Takes the sample at `k`, or leaves it out.
-fn one<T: Number>(
+/// A record, when its samples were taken, and within which bounds θ is kept.
+type Sample<'r, 't, T> =
+    (&'r Record<'r, T>, Option<&'r mut RecordTime<'t>>, Option<&'r mut RecordBounds>);
+
+/// Takes the sample at `k`, or leaves it out; why it was not used, if it was not.
+pub(crate) fn one<T: Number>(
     estimator: &mut AnyEstimator<T>,
-    (record, time): (&Record<'_, T>, Option<&mut RecordTime<'_>>),
+    (record, time, bounds): Sample<'_, '_, T>,
     k: usize,
     outputs: &mut Outputs<T>,
-) -> Result<(), forgetting::Error> {
+) -> Result<Option<Skip>, forgetting::Error> {
     let Sizes { parameters: n, rows: p, targets: m, .. } = record.sizes;
     let phi = &record.phi[k * p * n..(k + 1) * p * n];
     let y = &record.y[k * p * m..(k + 1) * p * m];
-    if record.missing == Missing::Skip && is_missing(phi, y) {
+    let skipped = if record.missing == Missing::Skip && is_missing(phi, y) {
         outputs.note_missing(p * m);
         outputs.note_prior(estimator, true);
+        Some(Skip::Missing)
     } else {
         let elapsed = time.map_or(Ok(T::ONE), |time| time.elapsed(k))?;
-        let noise = record.noise.at(k, p);
-        outputs.note(&estimator.update_after(elapsed, phi, y, noise)?);
+        let update = estimator.update_after(elapsed, phi, y, record.noise.at(k, p))?;
+        outputs.note(&update);
+        let skipped = update.skipped;
         outputs.note_prior(estimator, false);
+        skipped
+    };
+    if let Some(bounds) = bounds {
+        bounds.hold(estimator)?;
     }
     outputs.note_state(estimator);
-    Ok(())
+    Ok(skipped)
 }

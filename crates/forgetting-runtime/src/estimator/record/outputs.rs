@@ -8,7 +8,7 @@ use crate::number::{Array, Elements, Number};
 use forgetting::{Answer, AnyEstimator, Dynamic, Factor, Memory, Outcome, Skip, Update};
 
 /// The outputs that were asked for, each as long as there were samples.
-pub(super) struct Outputs<T> {
+pub(crate) struct Outputs<T> {
     theta: Option<Vec<T>>,
     error: Option<Vec<T>>,
     leverage: Option<Vec<T>>,
