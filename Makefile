@@ -99,7 +99,7 @@ c: build
 	$(MAKE) --no-print-directory -C crates/forgetting-c test PYTHON=$(CURDIR)/$(BIN)/python
 
 embedded: build
-	PYTHON=$(CURDIR)/$(BIN)/python sh crates/forgetting-c/embedded/run.sh
+	+PYTHON=$(CURDIR)/$(BIN)/python sh crates/forgetting-c/embedded/run.sh
 
 spark: java build $(SPARK)/ready
 	OPENBLAS_NUM_THREADS=1 $(SPARK)/bin/python -m pytest --durations 5 tests/spark python/forgetting/spark
@@ -125,8 +125,11 @@ soak:
 stubs: build
 	$(BIN)/python tools/generate.py
 
-docs: build
+$(VENV)/sphinx: $(VENV)/ready
 	$(PIP) install sphinx myst-parser sphinx-gallery furo sphinx-design
+	touch $@
+
+docs: build $(VENV)/sphinx
 	rm -rf docs/_build
 	$(WITH_RECORDS) $(BIN)/sphinx-build -W -b html docs docs/_build
 	cd docs && ../$(BIN)/python -m writing.links _build
@@ -142,9 +145,12 @@ sdist: $(VENV)/maturin
 	cd $(SDIST) && empty/bin/python -c "import doctest, forgetting; assert not doctest.testmod(forgetting).failed; \
 	    print(forgetting.__version__, forgetting.__file__)"
 
-web: build
-	tools/web.sh build
+$(VENV)/playwright: $(VENV)/ready
 	$(PIP) install playwright
+	touch $@
+
+web: build $(VENV)/playwright
+	tools/web.sh build
 	FORGETTING_WEB=1 $(WITH_RECORDS) $(BIN)/pytest tests/web
 
 # what pip cannot install, the report names

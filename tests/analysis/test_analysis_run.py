@@ -88,6 +88,26 @@ def test_without_the_initial_covariance_the_record_starts_at_sample_one():
     assert len(found.error) == 399
 
 
+@pytest.mark.parametrize("rule", [None, "exponential", fg.Subspace(0.97)])
+def test_a_prior_that_is_set_late_is_no_forgetting(rule):
+    phi, y, _ = _data()
+    phi[:150, :, 2] = 0.0
+    phi[:, :, 1] = 0.0  # never switched on
+    phi[:, :, 2] *= 1000.0  # P falls where its unit becomes known
+    run = fg.RLS(3, rule=rule).run(phi, y, outputs=[*OUTPUTS, "prior_covariance"])
+    found = certify(run, phi).conditions
+    assert (found.trajectory.first, found["A1"].verdict) == (151, "holds")
+    told = certify(run, phi, initial_covariance=np.asarray(run.covariance)[0]).conditions
+    assert told["A1"].verdict == "fails"  # who says what P was before is taken at his word
+
+
+def test_a_record_that_speaks_at_its_end_is_judged_all_the_same():
+    phi, y, _ = _data(samples=20)
+    phi[:18, :, 2] = 0.0
+    run = fg.RLS(3).run(phi, y, outputs=OUTPUTS)
+    assert Trajectory.from_run(run, phi).samples == 2 * 3
+
+
 def _nightly(rule):
     phi, y, _ = _data(samples=1500, n=4, sigma=0.05)
     phi[500:1200] = 0.0

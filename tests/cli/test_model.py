@@ -121,7 +121,8 @@ def test_ranges_of_a_linear_structure_are_those_of_arx(record, capsys):
         ("armax:na=1..3", "'na=1..3' is not an order"),
         ("arma:na=1-2", "nb = 0 goes with u = None"),
         ("armax:nb=0", "nb = 0 goes with u = None"),
-        ("arx:nb=1/2", "same orders for all inputs"),
+        ("arx:nb=1/2", "nb has 2 orders for 1 input(s)"),
+        ("arx:nk=1/2", "nk has 2 orders for 1 input(s)"),
         ("tree", "the model 'tree' is not known"),
     ],
 )

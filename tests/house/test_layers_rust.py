@@ -34,7 +34,7 @@ LAYERS: dict[str, tuple[str, ...]] = {
         "estimator",  # one recursion
         "fleet bank",  # many of them: on samples of their own, or on the same
         "saved",  # all of it as bytes
-        "compact",  # one of them in as few numbers as there are
+        "compact",  # one of them, or the default bank, in as few numbers as there are
     ),
     "forgetting-runtime": (
         "error",  # what is refused, and how it is said

@@ -52,7 +52,7 @@ def test_one_step_is_the_prediction(plant):
     # of the last the noise is that of the linear regression, so the readings agree nearly
     held = found.ahead.forecasts.coverage()[1]
     assert held["noise"] == pytest.approx(
-        found.intervals.coverage(found.intervals.mean_square)[0], abs=0.15
+        found.intervals.coverage(found.intervals.mean_square)[0], abs=0.03
     )
 
 

@@ -92,7 +92,10 @@ def test_a_linear_structure_is_arx(frame):
         ({"model": "oe:na=1"}, "has no na; it has nb, nf, nk"),
         ({"model": "oe", "arx": (1, 1, 1)}, "say the model once"),
         ({"model": "oe", "half_life": 10}, "forgets by samples"),
-        ({"model": "fir:nb=1/2"}, "same orders for all inputs"),
+        ({"model": "fir:nb=1/2"}, r"nb has 2 orders for 1 input\(s\): u"),
+        ({"model": "arx:na=1/2"}, "na=1/2 in the model arx; na is one number"),
+        ({"model": "armax:nc=1/2"}, "only nb, nf, nk may be different"),
+        ({"model": "fir:nb=1/"}, "'nb=1/' is not an order; write fir:nb=1,nk=1, with nb=2/1"),
         ({"model": "oe", "output": ["y", "t"]}, "has one output; 2 columns"),
     ],
 )

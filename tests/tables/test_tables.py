@@ -285,6 +285,8 @@ def test_what_is_no_table(batch):
         ({"model": "arx:na=1", "arx": (1, 1, 0)}, "allowed: one of them"),
         ({"model": "oe:nb=1,nf=1"}, "allowed: fir, ar and arx"),
         ({"model": "arx:na=x"}, "'na=x' is not an order"),
+        ({"model": "arx:nb=1/2"}, "nb has 2 orders for 1 input"),
+        ({"arx": (1, [1, 2], [0])}, "nk has 1 orders for 2 input"),
         ({"model": 3}, "model = 3, allowed"),
         ({"gap": "5min"}, "gap = 300"),
         ({"gap": "5min", "arx": (1, 1, 0)}, "with time and arx"),

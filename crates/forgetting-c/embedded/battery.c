@@ -15,10 +15,18 @@
 #ifndef SAMPLES
 #define SAMPLES 100000
 #endif
+/* 0 where it follows the data */
+#ifndef INITIAL_COVARIANCE
+#define INITIAL_COVARIANCE 100
+#endif
+/* bytes of an estimator, and of its saved state */
+#ifndef ROOM
+#define ROOM 512
+#endif
 
 extern const fg_kind KIND;
 
-static _Alignas(8) unsigned char memory[512];
+static _Alignas(8) unsigned char memory[ROOM];
 static uint32_t state = 1, hash = 2166136261u;
 
 /* Whole numbers of 256ths, which a float holds exactly: as the test makes them. */
@@ -52,7 +60,8 @@ static void add_to_hash(const float theta[N]) {
 }
 
 int main(void) {
-    fg_settings settings = {.parameters = N, .forgetting_factor = FORGETTING_FACTOR, .initial_covariance = 100};
+    fg_settings settings = {
+        .parameters = N, .forgetting_factor = FORGETTING_FACTOR, .initial_covariance = INITIAL_COVARIANCE};
     fg_estimator *cell;
     float phi[N], theta[N];
     uint32_t most = 0, instructions = 0;
@@ -69,7 +78,7 @@ int main(void) {
         add_to_hash(theta);
     }
 #ifndef WITHOUT_SAVING
-    unsigned char bytes[512];
+    static unsigned char bytes[ROOM];
     size_t length;
     if (fg_save(cell, bytes, sizeof bytes, &length) != FG_OK) return 1;
     print_bytes("state", bytes, (uint32_t)length);

@@ -32,9 +32,11 @@ SAMPLES = {2: 100_000, 4: 10_000, 6: 10_000}
 FORGETTING_FACTOR = 0.99609375
 # of every parameter, above what the cell has
 LEAST_RESISTANCE = 0.078125
-RULES = ["exponential", "subspace", "random_walk"]
-# rules that use no forgetting factor
-WITHOUT_FACTOR = ["random_walk"]
+# of several estimators at once, in the units of the data
+BANK = "bank"
+RULES = ["exponential", "subspace", "random_walk", BANK]
+# those that use no forgetting factor
+WITHOUT_FACTOR = ["random_walk", BANK]
 # what the loop that the counter is held against executes: see `machine.c`
 LOOP = 300_000
 
@@ -136,6 +138,7 @@ def compiled(machine: Machine, rule: str, n: int, saves: bool = True) -> tuple[P
     options += [f"-DKIND=fg_{rule}_f32_{n}", f"-DN={n}", f"-DSAMPLES={SAMPLES[n]}"]
     options += [f"-DFORGETTING_FACTOR={factor(rule) or 0}"]
     options += [f"-DLEAST_RESISTANCE={LEAST_RESISTANCE}f"]
+    options += ["-DINITIAL_COVARIANCE=0", "-DROOM=4096"] if rule == BANK else []
     options += [] if saves else ["-DWITHOUT_SAVING"]
     objects = []
     for source in ("battery.c", "machine.c"):
@@ -170,8 +173,8 @@ def update_code(machine: Machine, program: Path) -> int:
     """The bytes of the functions that an update is."""
     lines = run(machine.compiler + "nm", "-S", "-C", str(program)).splitlines()
     parts = [line.split(maxsplit=3) for line in lines if len(line.split(maxsplit=3)) == 4]
-    words = ("fg_update_f32", "kind::update", "Compact", "compact::")
-    left_out = ("visit", "save", "load", "from_bytes", "covariance", "::of")
+    words = ("fg_update_f32", "kind::update", "Compact", "compact::", "bank::", "mixers::")
+    left_out = ("visit", "save", "load", "from_bytes", "read", "covariance", "::of", "is_sound")
     return sum(
         int(size, 16)
         for _, size, kind, name in parts
@@ -216,15 +219,22 @@ def samples(n: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     return phi, voltage + numbers[:, -1] / np.float32(1024)
 
 
-def expected(rule: str, n: int) -> tuple[str, str, NDArray[np.float32]]:
-    """The hash of all estimates, the state at the end and its estimate within bounds, of Python."""
-    rls = fg.RLS(
+def estimator(rule: str, n: int) -> fg.RLS | fg.Bank:
+    """That of `battery.c` in Python."""
+    if rule == BANK:
+        return fg.Bank(n, dtype="float32")
+    return fg.RLS(
         n,
         rule=rule,
         forgetting_factor=factor(rule),
         initial_covariance=100.0,
         dtype="float32",
     )
+
+
+def expected(rule: str, n: int) -> tuple[str, str, NDArray[np.float32]]:
+    """The hash of all estimates, the state at the end and its estimate within bounds, of Python."""
+    rls = estimator(rule, n)
     phi, y = samples(n)
     thetas = np.empty((len(phi), n), np.float32)
     for k in range(len(phi)):

@@ -89,7 +89,8 @@ typedef struct fg_choice {
 } fg_choice;
 
 /* What an estimator is made from. All zeros but for `parameters` is what Python's RLS(n) is, for a
- * general kind; a compact kind needs an initial covariance. */
+ * general kind, and Python's Bank(n), for a bank; a compact kind needs an initial covariance. A bank takes
+ * an initial covariance, an initial theta together with it, and nothing else. */
 typedef struct fg_settings {
     size_t parameters;           /* n, one of those that the kind is for */
     fg_choice rule;              /* where to forget; compact kinds: the name is that of the kind or null */
@@ -139,14 +140,19 @@ typedef struct fg_health_report {
     uint8_t reserved[6];
 } fg_health_report;
 
+/* How many members a bank has. */
+#define FG_BANK_MEMBERS 8
+
 /*
  * Kinds.
  *
  * Compact kinds: one rule, n parameters, lambda the same for every sample, P0 = c I. They are small and
  * need no more memory than the numbers that they keep. A program links those that it names.
+ * Banks: compact random walks of eight speeds on the same samples, weighed by how well each has predicted
+ * (the mixer mlpol). Nothing need be chosen, and no unit matters where no initial covariance is given.
  * General kinds: any rule, rate, weighting and gate by name, 1 to 8 or (double)
  * 1 to 32 parameters; for desktops.
- * Both give the same bits for the same settings.
+ * All give the bits of Python for the same settings and arithmetic.
  */
 #define FG_COMPACT_KINDS(rule)                                                                          \
     extern const fg_kind fg_##rule##_f32_1, fg_##rule##_f32_2, fg_##rule##_f32_3, fg_##rule##_f32_4,    \
@@ -158,10 +164,11 @@ FG_COMPACT_KINDS(exponential); /* everything at the same rate; may wind up */
 FG_COMPACT_KINDS(subspace);    /* in the direction of phi only; cannot wind up; parameter threshold */
 FG_COMPACT_KINDS(directional); /* the same, with another dead zone; parameter threshold */
 FG_COMPACT_KINDS(random_walk); /* every parameter walks alike; parameters process_noise, bound */
+FG_COMPACT_KINDS(bank);        /* the default bank */
 
 extern const fg_kind fg_general_f32_8, fg_general_f64_8, fg_general_f64_32;
 
-/* The compact kind of a rule for n parameters, or the smallest general kind where `rule` is null; `number`
+/* The compact kind of a rule, or of the "bank", for n parameters, or the smallest general kind where `rule` is null; `number`
  * is FG_F32 or FG_F64. Null if there is none. It links all kinds. */
 const fg_kind *fg_find(const char *rule, int32_t number, size_t parameters);
 
@@ -203,7 +210,7 @@ int32_t fg_theta_f32(fg_estimator *estimator, float *theta, size_t n);
 int32_t fg_theta_f64(fg_estimator *estimator, double *theta, size_t n);
 
 /* Goes on from these n numbers theta; P stays as it is.
- * Errors: as fg_predict; VALUE for a number that is not finite, or larger than the root of the largest. */
+ * Errors: as fg_predict; UNSUPPORTED for a bank, of which each member has a theta; VALUE for a number that is not finite, or larger than the root of the largest. */
 int32_t fg_set_theta_f32(fg_estimator *estimator, const float *theta, size_t n);
 int32_t fg_set_theta_f64(fg_estimator *estimator, const double *theta, size_t n);
 
@@ -219,13 +226,21 @@ int32_t fg_bounded_f32(fg_estimator *estimator, const float *lower, const float 
 int32_t fg_bounded_f64(fg_estimator *estimator, const double *lower, const double *upper, size_t n,
                        double *theta);
 
-/* P, n x n numbers, in units of 1/phi^2: times the variance of the noise, the covariance of theta.
+/* P, n x n numbers, in units of 1/phi^2: times the variance of the noise, the covariance of theta. That of
+ * a bank is that of the mixture, with what the members disagree about.
  * Errors: as fg_predict. */
 int32_t fg_covariance_f32(fg_estimator *estimator, float *covariance, size_t n);
 int32_t fg_covariance_f64(fg_estimator *estimator, double *covariance, size_t n);
 
-/* fg_update, fg_update_after, fg_predict, fg_theta, fg_set_theta, fg_bounded and fg_covariance: whichever of
- * the two the type of the array says. */
+/* How far each member of a bank is believed, `members` = FG_BANK_MEMBERS numbers, from the slowest walk to
+ * the fastest: not negative, their sum is 1.
+ * Errors: NULL, ALIGNMENT, NOT_AN_ESTIMATOR, NUMBER_TYPE; UNSUPPORTED for what is no bank; LENGTH if `members`
+ * is another number. */
+int32_t fg_weights_f32(fg_estimator *estimator, float *weights, size_t members);
+int32_t fg_weights_f64(fg_estimator *estimator, double *weights, size_t members);
+
+/* fg_update, fg_update_after, fg_predict, fg_theta, fg_set_theta, fg_bounded, fg_covariance and fg_weights:
+ * whichever of the two the type of the array says. */
 #if !defined(__cplusplus) && defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L
 #define FG_OF_TYPE(array, function)                                                   \
     _Generic((array), float *: function##_f32, const float *: function##_f32,         \
@@ -238,9 +253,11 @@ int32_t fg_covariance_f64(fg_estimator *estimator, double *covariance, size_t n)
 #define fg_set_theta(estimator, theta, n) FG_OF_TYPE(theta, fg_set_theta)(estimator, theta, n)
 #define fg_bounded(estimator, lower, upper, n, theta) FG_OF_TYPE(theta, fg_bounded)(estimator, lower, upper, n, theta)
 #define fg_covariance(estimator, covariance, n) FG_OF_TYPE(covariance, fg_covariance)(estimator, covariance, n)
+#define fg_weights(estimator, weights, members) FG_OF_TYPE(weights, fg_weights)(estimator, weights, members)
 #endif
 
-/* What the monitor has found. Errors: NULL, ALIGNMENT, NOT_AN_ESTIMATOR; UNSUPPORTED without a monitor. */
+/* What the monitor has found. Errors: NULL, ALIGNMENT, NOT_AN_ESTIMATOR; UNSUPPORTED without a monitor, which
+ * a bank never has. */
 int32_t fg_health(fg_estimator *estimator, fg_health_report *health);
 
 /* Samples used so far; 0 if there is no estimator. */
@@ -249,12 +266,12 @@ uint64_t fg_samples(fg_estimator *estimator);
 /* Back to theta0 and P0. Errors: NULL, ALIGNMENT, NOT_AN_ESTIMATOR. */
 int32_t fg_reset(fg_estimator *estimator);
 
-/* Saves the estimator, configuration and state, as the bytes that Python's RLS.to_bytes writes. `*length`
+/* Saves the estimator, configuration and state, as the bytes that Python's to_bytes writes. `*length`
  * becomes their number. Where `bytes` is null nothing else is done. Nothing of the estimator changes.
  * Errors: NULL, ALIGNMENT, NOT_AN_ESTIMATOR; MEMORY if `capacity` is less than the length. */
 int32_t fg_save(fg_estimator *estimator, void *bytes, size_t capacity, size_t *length);
 
-/* Makes the estimator that was saved as `length` bytes, here or by Python's RLS.to_bytes. It goes on bit for
+/* Makes the estimator that was saved as `length` bytes, here or by Python's to_bytes. It goes on bit for
  * bit. Errors: as fg_init; STATE for bytes that were altered, or are not those of an estimator of this
  * kind. `memory` is as it was then. */
 int32_t fg_load(void *memory, size_t size, const fg_kind *kind, const void *bytes, size_t length,

@@ -69,6 +69,7 @@ template <> struct Functions<float> {
     static constexpr auto set_theta = fg_set_theta_f32;
     static constexpr auto bounded = fg_bounded_f32;
     static constexpr auto covariance = fg_covariance_f32;
+    static constexpr auto weights = fg_weights_f32;
 };
 
 template <> struct Functions<double> {
@@ -81,6 +82,7 @@ template <> struct Functions<double> {
     static constexpr auto set_theta = fg_set_theta_f64;
     static constexpr auto bounded = fg_bounded_f64;
     static constexpr auto covariance = fg_covariance_f64;
+    static constexpr auto weights = fg_weights_f64;
 };
 
 } // namespace detail
@@ -252,6 +254,13 @@ template <class T> class Estimator {
         std::vector<T> covariance(parameters_ * parameters_);
         detail::check(F::covariance(estimator_, covariance.data(), parameters_));
         return covariance;
+    }
+
+    /// of the members of a bank, FG_BANK_MEMBERS numbers
+    std::vector<T> weights() const {
+        std::vector<T> weights(FG_BANK_MEMBERS);
+        detail::check(F::weights(estimator_, weights.data(), weights.size()));
+        return weights;
     }
 
     fg_health_report health() const {

@@ -1,8 +1,7 @@
 //! Every kind, and how one is found by name.
 
-#[cfg(feature = "general")]
-use crate::kind::Whole;
-use crate::kind::{Kind, Saving, View};
+use crate::kind::{Kind, Saving, View, Whole};
+use crate::model::bank::Bank;
 use crate::model::compact::{
     Directional, Exponential, Named, NoForgetting, Of, RandomWalk, Subspace,
 };
@@ -36,6 +35,28 @@ kinds! {
     RandomWalk "random_walk" [1 2 3 4 5 6 7 8];
 }
 
+macro_rules! banks {
+    ($Bank:ident $name:literal [$($n:literal)*];) => {
+        const BANKS: &[(&str, &Kind)] = &[$(
+            {
+                #[export_name = concat!("fg_", $name, "_f32_", $n)]
+                static KIND: Kind = Kind::of::<$Bank<f32, $n>>(Saving::Whole(Whole::of::<$Bank<f32, $n>>()));
+                ($name, &KIND)
+            },
+            {
+                #[export_name = concat!("fg_", $name, "_f64_", $n)]
+                static KIND: Kind = Kind::of::<$Bank<f64, $n>>(Saving::Whole(Whole::of::<$Bank<f64, $n>>()));
+                ($name, &KIND)
+            },
+        )*];
+    };
+}
+
+// the default bank
+banks! {
+    Bank "bank" [1 2 3 4 5 6 7 8];
+}
+
 macro_rules! general {
     ($($name:ident: $T:ty, $n:literal;)*) => {
         $(
@@ -58,7 +79,7 @@ general! {
     fg_general_f64_32: f64, 32;
 }
 
-/// The compact kind of the rule called `rule`, or, where that is null, the smallest kind for any rule;
+/// The compact kind of the rule called `rule`, or the bank, or, where that is null, the smallest kind for any rule;
 /// null if there is none.
 ///
 /// # Safety
@@ -79,7 +100,7 @@ pub unsafe extern "C" fn fg_find(
         // SAFETY: as above.
         let rule = unsafe { CStr::from_ptr(rule) }.to_str();
         let is_it = |(name, kind): &&(&str, &Kind)| Ok(*name) == rule && fits(kind);
-        COMPACT.iter().find(is_it).map(|(_, kind)| *kind)
+        COMPACT.iter().chain(BANKS).find(is_it).map(|(_, kind)| *kind)
     };
     found.map_or(core::ptr::null(), |kind| kind)
 }

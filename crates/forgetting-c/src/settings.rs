@@ -4,7 +4,7 @@ use crate::code::Why;
 use core::ffi::{c_char, CStr};
 use forgetting::choice::{About, Value, Values};
 use forgetting::defaults::FORGETTING_FACTOR;
-use forgetting::Error;
+use forgetting::{Error, Real};
 
 /// A parameter of a choice: a number or a word.
 #[repr(C)]
@@ -118,6 +118,15 @@ impl Choice {
 }
 
 impl Settings {
+    /// θ₀ as n = `N` numbers; 0 if it was not given.
+    pub fn theta_of<T: Real, const N: usize>(&self) -> [T; N] {
+        let mut theta = [T::ZERO; N];
+        for (theta, &given) in theta.iter_mut().zip(self.initial_theta().unwrap_or_default()) {
+            *theta = T::from_f64(given);
+        }
+        theta
+    }
+
     /// θ₀ of an estimator of `parameters`, if it was given.
     pub fn initial_theta(&self) -> Option<&[f64]> {
         if self.initial_theta.is_null() {

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 NUMBERS = {"float32": 4, "float64": 8}
 OK = 0
+MEMBERS = 8
 
 
 class Parameter(ctypes.Structure):
@@ -67,7 +68,7 @@ def load() -> ctypes.CDLL:
         after.argtypes = [c_void_p, real, c_void_p, c_size_t, real, c_void_p, c_void_p]
         bounded = getattr(library, f"fg_bounded_{name}")
         bounded.argtypes = [c_void_p, c_void_p, c_void_p, c_size_t, c_void_p]
-        for function in ("set_theta", "theta", "covariance"):
+        for function in ("set_theta", "theta", "covariance", "weights"):
             one = getattr(library, f"fg_{function}_{name}")
             one.argtypes = [c_void_p, c_void_p, c_size_t]
     library.fg_init.argtypes = [c_void_p, c_size_t, c_void_p, c_void_p, c_void_p, c_void_p]
@@ -101,6 +102,8 @@ class Estimator:
         self.bounded_theta = getattr(library, f"fg_bounded_{short}")
         self.put_theta = getattr(library, f"fg_set_theta_{short}")
         self.read_covariance = getattr(library, f"fg_covariance_{short}")
+        self.read_theta = getattr(library, f"fg_theta_{short}")
+        self.read_weights = getattr(library, f"fg_weights_{short}")
 
     def init(self, settings: Settings) -> Estimator:
         """Made from settings."""
@@ -146,6 +149,19 @@ class Estimator:
         memory = ctypes.addressof(self.memory)
         self.check(self.bounded_theta(memory, *places, self.n, theta.ctypes.data))
         return theta
+
+    def theta(self) -> NDArray[np.floating]:
+        """The estimate."""
+        theta = np.empty(self.n, self.dtype)
+        self.check(self.read_theta(ctypes.addressof(self.memory), theta.ctypes.data, self.n))
+        return theta
+
+    def weights(self) -> NDArray[np.floating]:
+        """How far each member of a bank is believed."""
+        weights = np.empty(MEMBERS, self.dtype)
+        place = ctypes.addressof(self.memory)
+        self.check(self.read_weights(place, weights.ctypes.data, MEMBERS))
+        return weights
 
     def covariance(self) -> NDArray[np.floating]:
         """P."""

@@ -290,6 +290,7 @@ static void a_saved_estimator_goes_on(const fg_kind *kind) {
     unsigned char blobs[3][4096];
     size_t lengths[3];
     fg_settings settings = usual();
+    if (kind == &fg_bank_f64_3) settings.forgetting_factor = 0;
     fg_estimator *first, *second;
     void *memory = memory_for(kind), *other = memory_for(kind);
     double phi[N], y;
@@ -314,6 +315,7 @@ static void a_saved_estimator_goes_on(const fg_kind *kind) {
 static void kinds_are_found(void) {
     CHECK(fg_find("exponential", FG_F64, N) == &fg_exponential_f64_3);
     CHECK(fg_find("subspace", FG_F32, 8) == &fg_subspace_f32_8);
+    CHECK(fg_find("bank", FG_F32, 4) == &fg_bank_f32_4 && !fg_find("bank", FG_F64, 9));
     CHECK(fg_find(NULL, FG_F64, 8) == &fg_general_f64_8 && fg_find(NULL, FG_F64, 9) == &fg_general_f64_32);
     CHECK(!fg_find("subspace", FG_F32, 9) && !fg_find("nothing", FG_F32, 2));
     CHECK(!fg_find(NULL, FG_F32, 9) && !fg_find(NULL, FG_F64, 33) && !fg_find(NULL, FG_F32, 0) && !fg_find(NULL, 5, 2));
@@ -407,6 +409,124 @@ static void the_type_of_the_array_chooses(void) {
     CHECK(fg_init(memory[0], 256, &fg_random_walk_f32_2, &settings, NULL, NULL) == FG_ERROR_UNSUPPORTED);
 }
 
+/* Nothing chosen: parameters that stand still for 500 samples, then jump. The bank predicts better than any
+ * one of its walks could over both halves, whatever the units. */
+static void a_bank_needs_no_settings(void) {
+    const fg_kind *kind = &fg_bank_f64_3;
+    static const double truth[2][N] = {{1.5, -2, 0.25}, {-1, 0.5, 2}};
+    fg_settings settings = {.parameters = N};
+    void *memory[2] = {memory_for(kind), memory_for(kind)};
+    fg_estimator *bank[2];
+    double weights[FG_BANK_MEMBERS], theta[2][N], p[N * N], y_of[2], squared = 0;
+    fg_report_f64 report[2];
+    for (int b = 0; b < 2; ++b)
+        CHECK(fg_init(memory[b], fg_size(kind), kind, &settings, &bank[b], NULL) == FG_OK);
+    for (int k = 0; k < 1000; ++k) {
+        double phi[N], scaled[N], y = 0.1 * uniform();
+        for (int i = 0; i < N; ++i) {
+            phi[i] = uniform();
+            scaled[i] = ldexp(phi[i], 20 * i - 20);
+            y += truth[k / 500][i] * phi[i];
+        }
+        CHECK(fg_predict_f64(bank[0], phi, N, &y_of[0]) == FG_OK);
+        CHECK(fg_update_f64(bank[0], phi, N, y, &report[0]) == FG_OK);
+        CHECK(fg_update_f64(bank[1], scaled, N, y, &report[1]) == FG_OK);
+        CHECK(fabs(report[0].error - (y - y_of[0])) < 1e-12 && report[0].leverage > 0 && report[0].weight == 1);
+        CHECK(report[0].used && !report[0].windup && report[0].gate == 0 && report[0].forgetting_factor <= 1);
+        CHECK(fabs(report[0].error - report[1].error) < 1e-9);
+        if (k >= 50 && (k < 500 || k >= 530)) squared += report[0].error * report[0].error;
+        CHECK(fg_weights_f64(bank[0], weights, FG_BANK_MEMBERS) == FG_OK);
+        double sum = 0;
+        for (int i = 0; i < FG_BANK_MEMBERS; ++i) {
+            CHECK(weights[i] >= 0 && weights[i] <= 1);
+            if (k < 3 * N) CHECK(fabs(weights[i] - 1.0 / FG_BANK_MEMBERS) < 1e-15);
+            sum += weights[i];
+        }
+        CHECK(fabs(sum - 1) < 1e-12);
+    }
+    /* the variance of the noise is 0.01/3 */
+    CHECK(squared / 920 < 0.02);
+    CHECK(fg_theta_f64(bank[0], theta[0], N) == FG_OK && fg_theta_f64(bank[1], theta[1], N) == FG_OK);
+    for (int i = 0; i < N; ++i) {
+        CHECK(fabs(theta[0][i] - truth[1][i]) < 0.1);
+        CHECK(fabs(ldexp(theta[1][i], 20 * i - 20) - theta[0][i]) < 1e-9);
+    }
+    CHECK(fg_covariance_f64(bank[0], p, N) == FG_OK && p[0] > 0 && fabs(p[1] - p[N]) < 1e-12 * p[0]);
+    CHECK(fg_samples(bank[0]) == 1000 && fg_reset(bank[0]) == FG_OK && fg_samples(bank[0]) == 0);
+    CHECK(fg_weights(bank[0], weights, FG_BANK_MEMBERS) == FG_OK && weights[0] == weights[7]);
+    free(memory[0]), free(memory[1]);
+}
+
+/* What a bank refuses has changed nothing. */
+static void a_bank_refuses_what_it_has_not(void) {
+    const fg_kind *kind = &fg_bank_f64_3;
+    size_t size = fg_size(kind), length, other;
+    unsigned char *memory = memory_for(kind), *copy = malloc(size), before[8192], after[8192];
+    fg_settings settings = {.parameters = N, .initial_covariance = 10, .initial_theta = (const double[]){1, 2, 3}};
+    fg_estimator *estimator, *rls;
+    double phi[N], y, weights[FG_BANK_MEMBERS + 1], one[] = {1, 1, 1};
+    float single[FG_BANK_MEMBERS];
+    fg_health_report health;
+    memset(memory, 0, size);
+    CHECK(fg_init(memory, size, kind, &settings, &estimator, NULL) == FG_OK);
+    CHECK(fg_theta_f64(estimator, phi, N) == FG_OK && phi[0] == 1 && phi[2] == 3);
+    for (int k = 0; k < 40; ++k) {
+        sample(phi, &y);
+        CHECK(fg_update_f64(estimator, phi, N, y, NULL) == FG_OK);
+    }
+    CHECK(fg_save(estimator, before, sizeof before, &length) == FG_OK);
+    REFUSED(fg_update_f64(estimator, phi, N - 1, y, NULL), FG_ERROR_LENGTH);
+    REFUSED(fg_update_f64(estimator, NULL, N, y, NULL), FG_ERROR_NULL);
+    REFUSED(fg_update_f64(estimator, phi, N, NAN, NULL), FG_ERROR_VALUE);
+    REFUSED(fg_update_f64(estimator, phi, N, 1e300, NULL), FG_ERROR_RANGE);
+    REFUSED(fg_update_f64(estimator, (const double[]){1, NAN, 1}, N, y, NULL), FG_ERROR_VALUE);
+    REFUSED(fg_update_after_f64(estimator, -1, phi, N, y, NULL, NULL), FG_ERROR_VALUE);
+    REFUSED(fg_update_after_f64(estimator, 1, phi, N, y, (const double[]){0}, NULL), FG_ERROR_VALUE);
+    REFUSED(fg_update_f32(estimator, single, N, 1, NULL), FG_ERROR_NUMBER_TYPE);
+    REFUSED(fg_set_theta_f64(estimator, one, N), FG_ERROR_UNSUPPORTED);
+    REFUSED(fg_health(estimator, &health), FG_ERROR_UNSUPPORTED);
+    REFUSED(fg_weights_f64(NULL, weights, FG_BANK_MEMBERS), FG_ERROR_NULL);
+    REFUSED(fg_weights_f64(estimator, NULL, FG_BANK_MEMBERS), FG_ERROR_NULL);
+    REFUSED(fg_weights_f64(estimator, weights, FG_BANK_MEMBERS - 1), FG_ERROR_LENGTH);
+    REFUSED(fg_weights_f64(estimator, weights, FG_BANK_MEMBERS + 1), FG_ERROR_LENGTH);
+    REFUSED(fg_weights_f32(estimator, single, FG_BANK_MEMBERS), FG_ERROR_NUMBER_TYPE);
+
+    memcpy(copy, memory, size);
+    fg_settings wrong = {.parameters = N, .initial_theta = one};
+    CHECK(fg_init(memory, size, kind, &wrong, NULL, NULL) == FG_ERROR_UNSUPPORTED);
+    wrong = (fg_settings){.parameters = N, .initial_covariance = -1};
+    CHECK(fg_init(memory, size, kind, &wrong, NULL, NULL) == FG_ERROR_VALUE);
+    wrong = (fg_settings){.parameters = N, .rule = {.name = "subspace"}};
+    CHECK(fg_init(memory, size, kind, &wrong, NULL, NULL) == FG_ERROR_UNSUPPORTED);
+    wrong = (fg_settings){.parameters = N, .gate = {.name = "dead_zone"}};
+    CHECK(fg_init(memory, size, kind, &wrong, NULL, NULL) == FG_ERROR_UNSUPPORTED);
+    wrong = (fg_settings){.parameters = N, .forgetting_factor = 0.9};
+    CHECK(fg_init(memory, size, kind, &wrong, NULL, NULL) == FG_ERROR_UNSUPPORTED);
+    wrong = (fg_settings){.parameters = N, .monitor = 1};
+    CHECK(fg_init(memory, size, kind, &wrong, NULL, NULL) == FG_ERROR_UNSUPPORTED);
+    wrong = (fg_settings){.parameters = N + 1};
+    CHECK(fg_init(memory, size, kind, &wrong, NULL, NULL) == FG_ERROR_VALUE);
+    for (size_t i = 0; i < length; ++i) {
+        memcpy(after, before, length);
+        after[i] ^= 0x20;
+        CHECK(fg_load(memory, size, kind, after, length, NULL, NULL) == FG_ERROR_STATE);
+        CHECK(fg_load(memory, size, kind, before, i, NULL, NULL) == FG_ERROR_STATE);
+    }
+    CHECK(!memcmp(copy, memory, size));
+
+    /* a bank is no estimator of another kind, and none of these is a bank */
+    void *place = memory_for(&fg_random_walk_f64_3);
+    size_t room = fg_size(&fg_random_walk_f64_3);
+    CHECK(fg_load(place, room, &fg_random_walk_f64_3, before, length, NULL, NULL) == FG_ERROR_STATE);
+    settings.initial_theta = NULL;
+    CHECK(fg_init(place, room, &fg_random_walk_f64_3, &settings, &rls, NULL) == FG_OK);
+    CHECK(fg_weights_f64(rls, weights, FG_BANK_MEMBERS) == FG_ERROR_UNSUPPORTED);
+    CHECK(fg_save(rls, after, sizeof after, &other) == FG_OK);
+    CHECK(fg_load(memory, size, kind, after, other, NULL, NULL) == FG_ERROR_STATE);
+    CHECK(!memcmp(copy, memory, size));
+    free(place), free(copy), free(memory);
+}
+
 int main(void) {
     fg_choice none = {0}, exponential = {.name = "exponential"};
     estimates_are_those_of_the_normal_equations(&fg_exponential_f64_3, none);
@@ -421,6 +541,9 @@ int main(void) {
     refusals_change_nothing(&fg_general_f64_8);
     a_saved_estimator_goes_on(&fg_subspace_f64_3);
     a_saved_estimator_goes_on(&fg_general_f64_8);
+    a_saved_estimator_goes_on(&fg_bank_f64_3);
+    a_bank_needs_no_settings();
+    a_bank_refuses_what_it_has_not();
     kinds_are_found();
     every_code_has_words();
     choices_go_by_name();

@@ -70,6 +70,18 @@ void saved() {
     is_refused(FG_ERROR_STATE, "altered", [&] { fg::Estimator<double>::from_bytes(bytes, 2); });
 }
 
+void a_bank() {
+    follows_a_line(fg::Estimator<float>(fg::Settings(2), &fg_bank_f32_2));
+    fg::Estimator<double> bank(fg::Settings(2), &fg_bank_f64_2);
+    bank.update({1.0, 2.0}, 3.0);
+    CHECK(bank.weights() == std::vector<double>(FG_BANK_MEMBERS, 0.125));
+    auto loaded = fg::Estimator<double>::from_bytes(bank.to_bytes(), 2, &fg_bank_f64_2);
+    CHECK(loaded.theta() == bank.theta());
+    is_refused(FG_ERROR_UNSUPPORTED, "rule",
+               [] { fg::Estimator<double>(fg::Settings(2).rule("subspace"), &fg_bank_f64_2); });
+    is_refused(FG_ERROR_UNSUPPORTED, "supported", [] { fg::Estimator<double>(usual()).weights(); });
+}
+
 } // namespace
 
 int main() {
@@ -81,6 +93,7 @@ int main() {
     follows_a_line(fg::Estimator<double>(usual().rule("exponential").rate("constant")
                                              .gate("open").weighting("equal").initial_theta({1, 1})));
     saved();
+    a_bank();
     in_time_and_within_bounds();
     fg::Estimator<double> monitored(usual().monitor());
     monitored.update({1.0, 2.0}, 3.0);

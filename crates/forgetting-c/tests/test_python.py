@@ -49,7 +49,7 @@ def samples(dtype: str, seed: int, count: int, n: int = N) -> tuple[NDArray, NDA
     return phi.astype(dtype), y.astype(dtype)
 
 
-def check_both_ways(estimator: fg.RLS, rule: str | None, dtype: str, n: int = N) -> None:
+def check_both_ways(estimator: fg.RLS | fg.Bank, rule: str | None, dtype: str, n: int = N) -> None:
     """Python, then C, then Python: at every stop the same bytes as Python alone."""
     phi, y = samples(dtype, 1, 300, n)
     for k in range(100):
@@ -60,7 +60,7 @@ def check_both_ways(estimator: fg.RLS, rule: str | None, dtype: str, n: int = N)
         estimator.update(phi[k], y[k])
     moved.update(phi[100:200], y[100:200])
     assert moved.to_bytes() == estimator.to_bytes()
-    back = fg.RLS.from_bytes(moved.to_bytes())
+    back = type(estimator).from_bytes(moved.to_bytes())
     for k in range(200, 300):
         estimator.update(phi[k], y[k])
         back.update(phi[k], y[k])
@@ -76,7 +76,9 @@ def test_compact(rule: str, n: int, dtype: str) -> None:
     check_both_ways(rls, rule, dtype, n)
 
 
-def check_circumstances(estimator: fg.RLS, rule: str | None, dtype: str, n: int = N) -> None:
+def check_circumstances(
+    estimator: fg.RLS | fg.Bank, rule: str | None, dtype: str, n: int = N
+) -> None:
     """Samples after times of their own and of variances of their own: the same bytes after each."""
     phi, y = samples(dtype, 3, 150, n)
     random = np.random.default_rng(4)
@@ -235,3 +237,49 @@ def test_refused() -> None:
     followed = fg.RLS(N, rule="subspace", dtype="float32").to_bytes()
     with pytest.raises(AssertionError):
         Estimator(LIBRARY, "subspace", "float32", N).load(followed)
+
+
+@pytest.mark.parametrize("dtype", DTYPES)
+@pytest.mark.parametrize("n", range(1, 9))
+def test_bank(n: int, dtype: str) -> None:
+    """The default bank, in the units of the data and with a prior, goes on in C and back."""
+    check_both_ways(fg.Bank(n, dtype=dtype), "bank", dtype, n)
+    check_both_ways(fg.Bank(n, dtype=dtype, initial_covariance=50.0), "bank", dtype, n)
+    check_circumstances(fg.Bank(n, dtype=dtype), "bank", dtype, n)
+
+
+@pytest.mark.parametrize("dtype", DTYPES)
+def test_bank_made_in_c(dtype: str) -> None:
+    """Settings of zeros are what Python makes when nothing is said; what is read is the same."""
+    phi, y = samples(dtype, 6, 300)
+    phi = (phi * np.array([1e-3, 1.0, 1e4])).astype(dtype)
+    for given in ({}, {"initial_covariance": 10.0}):
+        made = Estimator(LIBRARY, "bank", dtype, N).init(Settings(parameters=N, **given))
+        bank = fg.Bank(N, dtype=dtype, **given)
+        assert made.to_bytes() == bank.to_bytes()
+        made.update(phi, y)
+        bank.run(phi, y)
+        assert made.to_bytes() == bank.to_bytes()
+        assert np.array_equal(made.theta(), bank.theta)
+        assert np.array_equal(made.weights(), bank.weights)
+        size = np.sqrt(np.diag(bank.covariance))
+        apart = (made.covariance() - bank.covariance) / np.outer(size, size)
+        assert np.abs(apart).max() < ROUNDING
+
+
+def test_other_banks_are_refused() -> None:
+    """Of another mixer, of other members, of several rows or targets, weighted."""
+    for bank in (
+        fg.Bank(N, mixer="best"),
+        fg.Bank(N, members=["subspace", "exponential"]),
+        fg.Bank(N, members=["exponential"] * 8),
+        fg.Bank(N, rows=2),
+        fg.Bank(N, targets=2),
+        fg.Bank(N, weighting="huber"),
+        fg.Bank(N, dtype="float32"),
+        fg.RLS(N, rule="random_walk", initial_covariance=1.0),
+    ):
+        with pytest.raises(AssertionError, match="not a saved estimator"):
+            Estimator(LIBRARY, "bank", "float64", N).load(bank.to_bytes())
+    with pytest.raises(AssertionError, match="not a saved estimator"):
+        Estimator(LIBRARY, "random_walk", "float64", N).load(fg.Bank(N).to_bytes())

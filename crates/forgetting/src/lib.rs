@@ -19,7 +19,6 @@ extern crate alloc;
 #[cfg(test)]
 extern crate std;
 
-#[cfg(feature = "alloc")]
 pub mod bank;
 pub mod choice;
 pub mod compact;

@@ -24,7 +24,7 @@ class Trajectory:
     before, prior, after : (T, n, n)
         P_k before the sample, P̄_k after forgetting, P_{k+1} after the measurement.
     first : int
-        Sample number of row 0 (1 when the initial covariance was not given).
+        Sample number of row 0; at least 1 where the initial covariance was not given.
     precision : float
         Unit roundoff of the numbers, float32 runs included.
     resolved : (T,) bool or None
@@ -131,9 +131,20 @@ class Trajectory:
         gamma : optional
             The weighting given to the run.
         initial_covariance : scalar, (n,) or (n, n), optional
-            P_0. Without it the trajectory starts at sample 1. Where P followed the data, give rows
-            from behind the first one in which each regressor has been other than 0: the prior of
-            its parameter is set there, which changes P and is no forgetting.
+            P_0. Without it P may have followed the data: the prior of a parameter is then set in
+            the first sample in which its regressor is other than 0, which changes P and is no
+            forgetting. The trajectory starts behind the last of these samples, at the latest 2 n
+            samples before the end. A regressor that is always 0 delays nothing.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import forgetting as fg
+        >>> phi = np.ones((20, 2))
+        >>> phi[:6, 1] = 0.0  # an input that is switched on at sample 6
+        >>> run = fg.RLS(2).run(phi, phi.sum(axis=1), outputs=["covariance"])
+        >>> Trajectory.from_run(run, phi).first
+        7
         """
         phibar = weighted(regressors, gamma)
         phibar = _without_skipped(phibar, getattr(run, "skipped", None))
@@ -143,7 +154,7 @@ class Trajectory:
         raw = np.asarray(present(run, "covariance"))
         after = stack("run.covariance", raw, samples, n)
         recorded = getattr(run, "prior_covariance", None)
-        first, start = 1, after[0]
+        first, start = _behind_priors(phibar), after[0]
         if initial_covariance is not None:
             first, start = 0, positive_matrix("initial_covariance", initial_covariance, n)
         path = np.concatenate([start[np.newaxis], after])
@@ -165,6 +176,14 @@ class Trajectory:
             None if rate is None else np.asarray(rate, dtype=np.float64)[first:],
             trust[first:],
         )
+
+
+def _behind_priors(phibar: Array) -> int:
+    """The sample from which on the prior of every parameter is set, if it followed the data."""
+    samples, _, n = phibar.shape
+    speaks = (phibar != 0).any(axis=1)
+    first = int(speaks[:, speaks.any(axis=0)].argmax(axis=0).max(initial=0))
+    return max(min(first + 1, int(samples) - 2 * int(n)), 1)
 
 
 def trajectory_of(

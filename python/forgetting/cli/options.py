@@ -45,7 +45,8 @@ Orders = Annotated[
     str | None,
     option(
         MODEL,
-        "Orders: past outputs, inputs, delay of the newest input.",
+        "Orders: past outputs, inputs, delay of the newest input; nb and nk as in 2/1 where two "
+        "inputs have their own.",
         "--arx",
         metavar="NA,NB,NK",
     ),

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from forgetting.models.orders import Each, from_text
 from forgetting.words.errors import RecordError
 
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
@@ -18,14 +19,22 @@ KNOWN = {
 """How a value is written in each option, and an example."""
 
 
-def parse_orders(text: str) -> list[int]:
-    """Read na,nb,nk."""
-    try:
-        return [int(part) for part in text.split(",")]
-    except ValueError:
+def parse_orders(text: str) -> list[Each]:
+    """Read na,nb,nk.
+
+    Examples
+    --------
+    >>> parse_orders("1,2/1,0")
+    [1, (2, 1), 0]
+    """
+    found = [from_text(part.strip()) for part in text.split(",")]
+    orders: list[Each] = [order for order in found if order is not None]
+    if len(orders) < len(found):
         raise RecordError(
-            f"--arx takes three whole numbers na,nb,nk such as 1,2,0, but got {text!r}"
-        ) from None
+            "--arx takes three whole numbers na,nb,nk such as 1,2,0, or 1,2/1,0 for two inputs of "
+            f"different orders, but got {text!r}"
+        )
+    return orders
 
 
 def parse_steps(text: str | None) -> list[int] | None:

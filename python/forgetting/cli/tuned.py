@@ -64,7 +64,7 @@ def title_of_rest(found: Tuning) -> str:
     """What the second table shows."""
     orders = found.orders
     if isinstance(orders, Orders):
-        model = f" of ARX({orders.na},{orders.nb},{orders.nk})"
+        model = f" of ARX({orders})"
     else:
         model = "" if orders is None else f" of {orders}"
     count = int(found.split.reporting.sum())

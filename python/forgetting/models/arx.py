@@ -14,7 +14,7 @@ from forgetting.models.arx_forecast import ARXForecast
 from forgetting.models.estimator import new_estimator
 from forgetting.models.lags import names
 from forgetting.models.mean_square import MEMORY, MeanSquare
-from forgetting.models.orders import Orders, OrdersByInput
+from forgetting.models.orders import Orders
 
 Array = NDArray[np.float64]
 
@@ -169,7 +169,7 @@ class ARX(ARXForecast):
         self,
         estimator: Any,
         noise: MeanSquare,
-        orders: Orders | OrdersByInput,
+        orders: Orders,
         inputs: Array,
         outputs: Array,
         skip: int = 0,
@@ -187,6 +187,6 @@ class ARX(ARXForecast):
         self.estimator_, self._noise = estimator, noise
         return int(run.used)
 
-    def _remember(self, orders: Orders | OrdersByInput, inputs: Array, outputs: Array) -> None:
+    def _remember(self, orders: Orders, inputs: Array, outputs: Array) -> None:
         start = max(0, len(outputs) - orders.reach)
         self._tail = inputs[start:].copy(), outputs[start:].copy()

@@ -12,7 +12,7 @@ from forgetting.frames.channels import paired
 from forgetting.models.fitted import Fitted
 from forgetting.models.identified import identified
 from forgetting.models.mean_square import MeanSquare
-from forgetting.models.orders import Orders, OrdersByInput, per_input
+from forgetting.models.orders import Orders, per_input
 from forgetting.polynomials import PolynomialModel, Structure
 
 Array = NDArray[np.float64]
@@ -77,8 +77,8 @@ class ARXEstimate(Fitted):
     def _theta(self) -> Array:
         return np.asarray(self.estimator_.theta, dtype=np.float64).reshape(-1, self.n_outputs_)
 
-    def _orders(self, inputs: Array) -> Orders | OrdersByInput:
-        orders = orders_of(self.na, self.nb, self.nk, inputs.shape[1])
+    def _orders(self, inputs: Array) -> Orders:
+        orders = Orders(self.na, self.nb, self.nk)
         if (orders.nb != 0) != (inputs.shape[1] > 0):
             given = f"{inputs.shape[1]} input(s)"
             raise InvalidInput(f"nb is {orders.nb} but u has {given}; nb = 0 goes with u = None")
@@ -97,12 +97,3 @@ class ARXEstimate(Fitted):
         ):
             if given != expected:
                 raise InvalidInput(f"{name} has {given} channels; the model has {expected}")
-
-
-def orders_of(
-    na: int, nb: int | Sequence[int], nk: int | Sequence[int], inputs: int
-) -> Orders | OrdersByInput:
-    """The orders of a model of so many inputs, the same for all of them or not."""
-    if not isinstance(nb, Sequence) and not isinstance(nk, Sequence):
-        return Orders(na, nb, nk)
-    return OrdersByInput(na, per_input("nb", nb, inputs), per_input("nk", nk, inputs))

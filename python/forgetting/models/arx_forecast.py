@@ -13,7 +13,7 @@ from forgetting.frames.channels import channels
 from forgetting.models.arx_estimate import ARXEstimate
 from forgetting.models.fitted import inputs_of_run
 from forgetting.models.lags import regressors
-from forgetting.models.orders import Orders, OrdersByInput
+from forgetting.models.orders import Orders
 from forgetting.models.simulation import free_run
 from forgetting.models.uncertainty import leverage, of_noise, of_parameters, root_of
 from forgetting.prediction import Prediction, around, quantile
@@ -133,7 +133,7 @@ class ARXForecast(ARXEstimate):
         simulated = free_run(inputs, start, coefficients, self._orders(inputs), constant)
         return self._plain(simulated)
 
-    def _phi(self, inputs: Array, outputs: Array, orders: Orders | OrdersByInput) -> Array:
+    def _phi(self, inputs: Array, outputs: Array, orders: Orders) -> Array:
         phi = regressors(inputs, outputs, orders)
         return np.hstack([phi, np.ones((len(phi), 1))]) if self.offset else phi
 

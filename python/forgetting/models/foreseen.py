@@ -14,7 +14,7 @@ from forgetting.models.estimator import new_estimator
 from forgetting.models.gradient import Coefficients
 from forgetting.models.lags import delayed, regressors
 from forgetting.models.mean_square import MEMORY, MeanSquare
-from forgetting.models.orders import Orders, OrdersByInput
+from forgetting.models.orders import Orders
 from forgetting.models.polynomial import Polynomial
 
 Array = NDArray[np.float64]
@@ -62,7 +62,7 @@ def of_arx(model: ARX, u: ArrayLike | None, y: ArrayLike, steps: int) -> Foresee
 
 
 def by_equation(
-    theta: Array, u: Array, y: Array, orders: Orders | OrdersByInput, steps: int, noise: Array
+    theta: Array, u: Array, y: Array, orders: Orders, steps: int, noise: Array
 ) -> Foreseen:
     """With the parameters (T, n) and the variance of the noise (T,) of each sample."""
     response = responses(-theta[:, : orders.na], np.empty((len(y), 0)), steps)
@@ -70,9 +70,7 @@ def by_equation(
     return Foreseen(y, made, deviations(noise, response), theta.shape[1])
 
 
-def difference_equation(
-    theta: Array, u: Array, y: Array, orders: Orders | OrdersByInput, steps: int
-) -> Array:
+def difference_equation(theta: Array, u: Array, y: Array, orders: Orders, steps: int) -> Array:
     """Forecasts (T, steps) after each sample, with the parameters (T, n) of that time."""
     lags = orders.input_lags(u.shape[1])
     constant = theta[:, -1] if theta.shape[1] > orders.na + len(lags) else 0.0

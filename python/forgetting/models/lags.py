@@ -18,12 +18,12 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from forgetting.models.orders import Orders, OrdersByInput
+from forgetting.models.orders import Orders
 
 Array = NDArray[np.float64]
 
 
-def regressors(u: Array, y: Array, orders: Orders | OrdersByInput) -> Array:
+def regressors(u: Array, y: Array, orders: Orders) -> Array:
     """Build every regressor of a record without gaps in time.
 
     Parameters
@@ -61,9 +61,7 @@ def delayed(signal: Array, lag: int) -> Array:
     return shifted
 
 
-def names(
-    outputs: Sequence[str], inputs: Sequence[str], orders: Orders | OrdersByInput
-) -> list[str]:
+def names(outputs: Sequence[str], inputs: Sequence[str], orders: Orders) -> list[str]:
     """Name each column of `regressors`.
 
     Examples

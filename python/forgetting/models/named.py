@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,7 +15,7 @@ from forgetting.models.arx import ARX
 from forgetting.models.bj import BJ
 from forgetting.models.fir import FIR
 from forgetting.models.oe import OE
-from forgetting.models.orders import Orders
+from forgetting.models.orders import Orders, from_text, in_text, total
 from forgetting.models.polynomial import Polynomial
 
 CLASSES: dict[str, type[Any]] = {
@@ -24,7 +24,9 @@ CLASSES: dict[str, type[Any]] = {
 """The class of each structure of the registry."""
 
 ORDER = re.compile(r"(?P<name>n[abcdfk])=(?P<values>.+)")
-VALUES = re.compile(r"\d+(/\d+)*")
+
+OF_INPUTS = ("nb", "nf", "nk")
+"""Orders that each input may have its own of."""
 
 Order = int | tuple[int, ...]
 
@@ -74,24 +76,13 @@ class NamedModel:
     def arx(self) -> Orders | None:
         """The orders of a model that is linear in its parameters; None for another.
 
-        Raises
-        ------
-        forgetting.InvalidInput
-            Where such a model has orders of their own for several inputs.
-
         Examples
         --------
-        >>> NamedModel.parse("fir:nb=3").arx, NamedModel.parse("oe").arx
-        (Orders(na=0, nb=3, nk=0), None)
+        >>> NamedModel.parse("fir:nb=3/1").arx, NamedModel.parse("oe").arx
+        (Orders(na=0, nb=(3, 1), nk=0), None)
         """
         made = self.make()
-        if isinstance(made, Polynomial):
-            return None
-        if not all(isinstance(order, int) for order in (made.nb, made.nk)):
-            raise InvalidInput(
-                f"a model {self.name} has the same orders for all inputs here, as in nb=2"
-            )
-        return Orders(made.na, made.nb, made.nk)
+        return None if isinstance(made, Polynomial) else Orders(made.na, made.nb, made.nk)
 
     @property
     def size(self) -> tuple[int, int]:
@@ -109,22 +100,6 @@ class NamedModel:
     def __str__(self) -> str:
         said = ",".join(f"{name}={in_text(value)}" for name, value in self.orders)
         return f"{self.name}:{said}" if said else self.name
-
-
-def total(order: int | Sequence[int]) -> int:
-    """The sum over inputs."""
-    return order if isinstance(order, int) else sum(order)
-
-
-def in_text(value: Order) -> str:
-    """An order as it is written.
-
-    Examples
-    --------
-    >>> in_text(2), in_text((2, 1))
-    ('2', '2/1')
-    """
-    return "/".join(map(str, value)) if isinstance(value, tuple) else str(value)
 
 
 def parts(text: str) -> tuple[str, list[tuple[str, str]]]:
@@ -165,10 +140,15 @@ def said_of(name: str, orders: str) -> Iterator[tuple[str, str]]:
 
 def value_of(name: str, order: str, text: str) -> Order:
     """A number, or one for each input."""
-    if VALUES.fullmatch(text) is None:
+    value = from_text(text)
+    if value is None:
         raise no_order(name, f"{order}={text}")
-    values = tuple(map(int, text.split("/")))
-    return values[0] if len(values) == 1 else values
+    if isinstance(value, tuple) and order not in OF_INPUTS:
+        raise InvalidInput(
+            f"{order}={text} in the model {name}; {order} is one number, and only "
+            f"{', '.join(OF_INPUTS)} may be different for each input"
+        )
+    return value
 
 
 def no_order(name: str, part: str) -> InvalidInput:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from forgetting._core import InvalidInput
 from forgetting.extras import extra
 from forgetting.models.lags import regressors
-from forgetting.models.orders import Orders, OrdersByInput
+from forgetting.models.orders import Orders
 
 Array = NDArray[np.float64]
 
@@ -23,7 +23,7 @@ def free_run(
     u: Array,
     start: Array,
     theta: Array,
-    orders: Orders | OrdersByInput,
+    orders: Orders,
     offset: Array | float = 0.0,
 ) -> Array:
     """Simulate y(k) = phi(k) theta with simulated outputs in the lags.
@@ -71,7 +71,7 @@ def check(u: Array, start: Array) -> None:
         raise InvalidInput(f"y_start has {len(start)} rows, more than the {len(u)} of u")
 
 
-def forced(u: Array, theta: Array, orders: Orders | OrdersByInput) -> Array:
+def forced(u: Array, theta: Array, orders: Orders) -> Array:
     """What the inputs bring, (T, outputs); before row 0 they are zero."""
     past_outputs = orders.na * theta.shape[1]
     inputs = regressors(u, np.empty((len(u), 0)), orders)

@@ -17,7 +17,7 @@ from forgetting._core import InvalidInput
 from forgetting.models.forecasts import Forecasts, aligned, checked
 from forgetting.models.foreseen import by_equation, of_signals
 from forgetting.models.named import NamedModel
-from forgetting.models.orders import Orders, OrdersByInput
+from forgetting.models.orders import Each, Orders
 from forgetting.record.dynamics import checked_orders, columns, stretches
 from forgetting.record.intervals import without_swollen
 from forgetting.record.polynomial import recorded
@@ -71,7 +71,7 @@ class Asked:
     output : str
     horizons : tuple of int
     level : float
-    model : Orders, OrdersByInput or Signals
+    model : Orders or Signals
         Of a model by arx its orders; of another its signals.
     parts : list of (slice, u, y)
         Of a model by arx: the stretches of the record, with their signals.
@@ -80,7 +80,7 @@ class Asked:
     output: str
     horizons: tuple[int, ...]
     level: float
-    model: Orders | OrdersByInput | Signals
+    model: Orders | Signals
     parts: list[tuple[slice, Array, Array]]
 
     def answer(self, trace: Trace) -> Ahead:
@@ -89,7 +89,7 @@ class Asked:
         found = self._by_signals(own) if isinstance(own, Signals) else self._by_arx(own, trace)
         return Ahead(self.output, found)
 
-    def _by_arx(self, orders: Orders | OrdersByInput, trace: Trace) -> Forecasts:
+    def _by_arx(self, orders: Orders, trace: Trace) -> Forecasts:
         noise = noise_variance(without_swollen(trace))[:, 0]
         steps = max(self.horizons)
         parts = [
@@ -116,7 +116,7 @@ def asked(
     record: Record,
     outputs: Sequence[str],
     inputs: Sequence[str],
-    model: tuple[Sequence[int] | None, NamedModel | None],
+    model: tuple[Sequence[Each] | None, NamedModel | None],
     steps: int | Sequence[int],
     level: float | None,
     **settings: Any,

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 import forgetting as fg
+from forgetting.models.orders import Each
 from forgetting.record.comparison import Compared, Comparison
 from forgetting.record.identify import build, listed
 from forgetting.record.origin import origin
@@ -39,7 +40,7 @@ def compare(
     formula: str | None = None,
     output: str | Sequence[str] = (),
     input: str | Sequence[str] = (),
-    arx: Sequence[int] | None = None,
+    arx: Sequence[Each] | None = None,
     model: str | None = None,
     offset: bool = True,
     initial_covariance: ArrayLike | None = None,
@@ -119,7 +120,7 @@ def prepared(
     formula: str | None,
     outputs: list[str],
     inputs: list[str],
-    arx: Sequence[int] | None,
+    arx: Sequence[Each] | None,
     model: str | None,
     offset: bool,
     moves: bool,

@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from forgetting.models.lags import Array, names, regressors
-from forgetting.models.orders import Orders
+from forgetting.models.orders import Each, Orders
 from forgetting.record.columns import numbers
 from forgetting.record.read import Record
 from forgetting.record.samples import Samples
@@ -22,7 +22,7 @@ def dynamics(
     record: Record,
     outputs: Sequence[str],
     inputs: Sequence[str],
-    arx: Sequence[int],
+    arx: Sequence[Each],
     offset: bool = True,
 ) -> Samples:
     """Build the samples of y(k) = phi(k) theta for named outputs and inputs.
@@ -34,8 +34,8 @@ def dynamics(
         is a gap; samples whose lags cross it are NaN.
     outputs, inputs : sequence of str
         Column names; several outputs share one regressor.
-    arx : sequence of three int
-        Orders na, nb, nk.
+    arx : sequence of three
+        Orders na, nb, nk; nb and nk may be sequences, with an order for each input.
     offset : bool
         Whether the last regressor is the constant 1, for data that are not deviations from rest.
     """
@@ -47,7 +47,7 @@ def dynamics(
     u = columns(record, inputs)
     phi = np.vstack([regressors(u[part], y[part], orders) for part in stretches(record)])
     cut = int((np.isnan(phi) & ~np.isnan(regressors(u, y, orders))).any(axis=1).sum())
-    model = f"ARX({orders.na},{orders.nb},{orders.nk}) of {', '.join(outputs)}"
+    model = f"ARX({orders}) of {', '.join(outputs)}"
     model += f" on {', '.join(inputs)}" if inputs else ""
     labels = tuple(names(outputs, inputs, orders))
     if offset:
@@ -58,18 +58,22 @@ def dynamics(
     ).check()
 
 
-def checked_orders(arx: Sequence[int], inputs: Sequence[str]) -> Orders:
+def checked_orders(arx: Sequence[Each], inputs: Sequence[str]) -> Orders:
     """Check the orders against the inputs given."""
     if len(arx) != 3:
         raise RecordError(f"ARX orders are na,nb,nk, three whole numbers; got {len(arx)}")
     try:
-        orders = Orders(*arx)
+        orders = Orders.of(arx)
     except ValueError as error:
         raise RecordError(str(error)) from None
     if orders.nb and not inputs:
         raise RecordError(f"nb is {orders.nb} but no input is named; use nb = 0 without input")
     if inputs and not orders.nb:
         raise RecordError(f"nb is 0 but {len(inputs)} input column(s) are named")
+    try:
+        orders.input_lags(len(inputs))
+    except ValueError as error:
+        raise RecordError(f"{error}: {', '.join(inputs)}") from None
     return orders
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import forgetting as fg
+from forgetting.models.orders import Each
 from forgetting.prediction import check_level
 from forgetting.record.ahead import asked
 from forgetting.record.dynamics import dynamics
@@ -45,7 +46,7 @@ def identify(
     formula: str | None = None,
     output: str | Sequence[str] = (),
     input: str | Sequence[str] = (),
-    arx: Sequence[int] | None = None,
+    arx: Sequence[Each] | None = None,
     model: str | None = None,
     offset: bool = True,
     rule: Any = "auto",
@@ -75,8 +76,8 @@ def identify(
         A regression such as ``"power ~ 0 + sun + sun:warmth"``; ``lag(x, k)`` is x, k rows ago.
     output, input : str or sequence of str, optional
         Columns of an ARX model; several outputs share one regressor.
-    arx : sequence of three int, optional
-        Orders na, nb, nk of the ARX model.
+    arx : sequence of three, optional
+        Orders na, nb, nk of the ARX model; nb and nk may be sequences, an order for each input.
     model : str, optional
         In the place of `arx` a structure and its orders, such as ``"armax:na=2,nb=2,nc=1,nk=1"``;
         also fir, ar, arx, arma, oe and bj, see `forgetting.ARMAX` and its neighbours. What is said
@@ -292,7 +293,7 @@ def build(
     formula: str | None,
     outputs: list[str],
     inputs: list[str],
-    arx: Sequence[int] | None,
+    arx: Sequence[Each] | None,
     offset: bool = True,
 ) -> Samples:
     """Choose between a formula and ARX, and refuse half of one with half of the other."""

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from forgetting._core import InvalidInput, structures
-from forgetting.models.named import NamedModel, in_text
+from forgetting.models.named import NamedModel
+from forgetting.models.orders import Each, in_text
 from forgetting.models.signal_origin import first_values
 from forgetting.record.dynamics import columns, refuse_repeats, stretches
 from forgetting.record.read import Record
@@ -108,16 +109,20 @@ class Learned:
         One-step errors, NaN where the sample was left out.
     error_without_forgetting : ndarray, shape (T, 1)
         Those of the same model that never forgets.
+    trust : ndarray, shape (T,)
+        What each sample counted, in (0, 1]: less at the start.
     """
 
     samples: Samples
     theta: Array
     error: Array
     error_without_forgetting: Array
+    trust: Array
 
     def put(self, trace: Trace) -> Trace:
         """The trace of the linear regression with the estimates and errors of the model."""
-        return replace(trace, theta=self.theta[:, :, np.newaxis], error=self.error)
+        theta = self.theta[:, :, np.newaxis]
+        return replace(trace, theta=theta, error=self.error, trust=self.trust)
 
     def back(self, trace: Trace) -> Trace:
         """The trace with P of signals as they are; the variance of the offset changes in place.
@@ -151,15 +156,16 @@ def learned(
         kept = model.course(u, signals.output, names)
         return {name: kept[name][signals.rows] for name in names}
 
-    kept = course(settings.get("rule", "auto"), "phi", "y", "theta", "error")
+    kept = course(settings.get("rule", "auto"), "phi", "y", "theta", "error", "scale")
     plain = course("none", "error")
     samples = found.samples(kept["phi"], kept["y"])
-    return Learned(samples, kept["theta"], kept["error"][:, None], plain["error"][:, None])
+    trust = kept["scale"] ** 2
+    return Learned(samples, kept["theta"], kept["error"][:, None], plain["error"][:, None], trust)
 
 
 def which(
-    formula: str | None, arx: Sequence[int] | None, model: str | None
-) -> tuple[Sequence[int] | None, NamedModel | None]:
+    formula: str | None, arx: Sequence[Each] | None, model: str | None
+) -> tuple[Sequence[Each] | None, NamedModel | None]:
     """What the model is: ARX orders, or a model that is not linear in its parameters, or neither.
 
     Examples
@@ -202,9 +208,6 @@ def described(named: NamedModel, output: str, inputs: Sequence[str]) -> str:
     """
     made = named.make()
     orders = {order: getattr(made, order) for order in structures()[named.name][1]}
-    each = (
-        f"{order}={in_text(tuple(value) if isinstance(value, list) else value)}"
-        for order, value in orders.items()
-    )
+    each = (f"{order}={in_text(value)}" for order, value in orders.items())
     words = f"{named.name.upper()}({', '.join(each)})"
     return f"{words} of {output}" + (f" on {', '.join(inputs)}" if inputs else "")

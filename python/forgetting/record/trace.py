@@ -82,6 +82,9 @@ class Trace:
         `rows`.
     covariance : ndarray, shape (n, n)
         P after the last sample.
+    trust : ndarray, shape (T,), or None
+        Of a model with coloured noise: what each sample counts, in (0, 1], less at the start; 1 if
+        not given.
     """
 
     theta: Array
@@ -99,6 +102,7 @@ class Trace:
     memory: Array | None = None
     weights: Array | None = None
     weights_path: Array | None = None
+    trust: Array | None = None
 
 
 def run(

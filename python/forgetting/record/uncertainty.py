@@ -8,7 +8,8 @@ sample. The running estimate is their plain mean,
     standard error of theta_i after sample k = sqrt(sigma²_k P_ii,k)
 
 with n the number of regressors: the first n errors show the initial guess, not the noise. Skipped
-samples (missing, or in the dead zone) do not enter, as they do not enter P.
+samples (missing, or in the dead zone) do not enter, as they do not enter P. Where a model counts
+its first samples less, as ARMAX does while its noise model is a guess, so does the mean.
 
 Why the mean does not forget, although the rule does: in a quiet stretch (zero input, zero error) an
 estimate with the rule's memory falls as lambda^k, exactly as fast as P of exponential forgetting
@@ -41,11 +42,13 @@ def noise_variance(trace: Trace) -> Array:
     # in place: as long as the record, and so never there twice
     mean = trace.error**2
     mean /= 1.0 + trace.leverage[:, None]
+    trust = np.float64(1.0) if trace.trust is None else trace.trust[:, None]
+    mean *= trust
     mean[~counted[:, 0]] = 0.0
     np.cumsum(mean, axis=0, out=mean)
-    count = np.cumsum(counted, axis=0)
-    mean /= np.maximum(count, 1)
-    mean[count[:, 0] == 0] = np.nan
+    count = np.cumsum(np.where(counted, trust, 0.0), axis=0)
+    with np.errstate(invalid="ignore"):
+        mean /= count  # 0/0 before the first
     return mean
 
 

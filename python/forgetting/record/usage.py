@@ -10,6 +10,7 @@ from typing import Any
 from forgetting.choice import Choice
 from forgetting.choices import Rate, Rule
 from forgetting.models.named import NamedModel
+from forgetting.models.orders import in_text
 from forgetting.tuning.candidate import Candidate
 from forgetting.tuning.code import code, given
 from forgetting.tuning.result import Lines
@@ -85,7 +86,10 @@ class Usage:
         words += [word for name in self.outputs for word in ("--output", name)]
         words += [word for name in self.inputs for word in ("--input", name)]
         for name, value in lags(candidate.orders).items():
-            words += [f"--{name}", value if isinstance(value, str) else ",".join(map(str, value))]
+            words += [
+                f"--{name}",
+                value if isinstance(value, str) else ",".join(map(in_text, value)),
+            ]
             words += [] if self.offset else ["--no-offset"]
         words += option("--time", self.time) + option("--gap", self.gap)
         words += [word for each in self.missing for word in ("--missing", str(each))]

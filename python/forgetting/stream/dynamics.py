@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from forgetting.models.lags import names, regressors
+from forgetting.models.orders import Each
 from forgetting.record.dynamics import CONSTANT, checked_orders, refuse_repeats
 from forgetting.stream.history import History
 from forgetting.stream.rows import Array, Flags
@@ -18,7 +19,7 @@ class Dynamics:
     """An ARX model of named columns; with the orders 0, 1, 0 a regression without lags."""
 
     def __init__(
-        self, outputs: Sequence[str], inputs: Sequence[str], arx: Sequence[int], offset: bool
+        self, outputs: Sequence[str], inputs: Sequence[str], arx: Sequence[Each], offset: bool
     ) -> None:
         self.orders = checked_orders(arx, inputs)
         refuse_repeats(outputs, inputs)
@@ -43,14 +44,12 @@ class Dynamics:
 
     def _columns_of(self, lag: int) -> list[int]:
         """Places of the regressors with this lag."""
-        outputs, inputs, orders = len(self.outputs), len(self.inputs), self.orders
+        outputs, orders = len(self.outputs), self.orders
         found: list[int] = []
         if lag <= orders.na:
             found += range((lag - 1) * outputs, lag * outputs)
-        if orders.nk <= lag < orders.nk + orders.nb:
-            first = orders.na * outputs + (lag - orders.nk) * inputs
-            found += range(first, first + inputs)
-        return found
+        lags = enumerate(orders.input_lags(len(self.inputs)), orders.na * outputs)
+        return found + [place for place, (own, _) in lags if own == lag]
 
     def state(self) -> dict[str, Any]:
         """See `Model`."""

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from forgetting.models.orders import Each
 from forgetting.record.known import Bounds, Known
 from forgetting.record.polynomial import which
 from forgetting.words.errors import RecordError
@@ -24,8 +25,8 @@ class Settings:
     ----------
     output, input : sequence of str
         Columns of an ARX model; without `arx` of a regression on the inputs of the same row.
-    arx : sequence of three int, optional
-        Orders na, nb, nk.
+    arx : sequence of three, optional
+        Orders na, nb, nk; nb and nk may be sequences, with an order for each input.
     model : str, optional
         In the place of `arx` a structure and its orders, such as ``"armax:na=1,nb=1,nc=1,nk=1"``.
     formula : str, optional
@@ -46,7 +47,7 @@ class Settings:
 
     output: Sequence[str] = ()
     input: Sequence[str] = ()
-    arx: Sequence[int] | None = None
+    arx: Sequence[Each] | None = None
     model: str | None = None
     formula: str | None = None
     offset: bool = True
@@ -104,4 +105,9 @@ def text_of(value: Any) -> str:
     """A setting as text; lists of any kind alike."""
     if isinstance(value, np.ndarray):
         value = value.tolist()
-    return repr(list(value) if isinstance(value, tuple) else value)
+    return repr(lists(value))
+
+
+def lists(value: Any) -> Any:
+    """Sequences as lists, those in them too."""
+    return [lists(each) for each in value] if isinstance(value, list | tuple) else value

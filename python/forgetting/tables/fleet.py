@@ -12,7 +12,7 @@ import numpy as np
 from forgetting._core import RLS, Bank, Fleet, InvalidInput
 from forgetting.extras import extra
 from forgetting.files import whole
-from forgetting.models.orders import Orders
+from forgetting.models.orders import Each, Orders
 from forgetting.tables import outputs as told
 from forgetting.tables import restore, state
 from forgetting.tables.batch import read, take
@@ -85,7 +85,7 @@ class TableFleet:
         *,
         time: str | None = None,
         offset: bool = False,
-        arx: Sequence[int] | Orders | None = None,
+        arx: Sequence[Each] | Orders | None = None,
         model: str | None = None,
         gap: Any = None,
         half_life: Any = None,

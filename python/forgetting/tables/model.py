@@ -9,7 +9,7 @@ from typing import Any
 from forgetting._core import InvalidInput
 from forgetting.models.lags import names
 from forgetting.models.named import NamedModel
-from forgetting.models.orders import Orders
+from forgetting.models.orders import Each, Orders
 from forgetting.words.duration import seconds_of
 
 NAMES = ("prediction", "error", "leverage", "theta", "variance", "skipped")
@@ -65,6 +65,8 @@ class Model:
             raise InvalidInput(f"phi = {list(self.phi)}, allowed: each column once, and not y")
         if self.arx is not None and bool(self.phi) != bool(self.arx.nb):
             raise InvalidInput(f"phi = {list(self.phi)} with nb = {self.arx.nb}: inputs go with nb")
+        if self.arx is not None:
+            self.arx.input_lags(len(self.phi))  # says when orders are for other inputs
         if self.gap is not None and (self.time is None or self.arx is None or not self.gap > 0):
             raise InvalidInput(f"gap = {self.gap}, allowed: above 0, with time and arx")
         if len(set(self.regressors)) < len(self.regressors):
@@ -122,7 +124,7 @@ def made(
     phi: str | Sequence[str],
     time: str | None,
     offset: bool,
-    arx: Sequence[int] | Orders | None,
+    arx: Sequence[Each] | Orders | None,
     model: str | None,
     gap: Any,
 ) -> Model:
@@ -134,7 +136,7 @@ def made(
     if arx is not None and not isinstance(arx, Orders):
         if len(arx) != 3:
             raise InvalidInput(f"arx = {tuple(arx)}, allowed: three whole numbers na, nb, nk")
-        arx = Orders(*arx)
+        arx = Orders.of(arx)
     try:
         longest = None if gap is None else seconds_of(gap)
     except ValueError as error:

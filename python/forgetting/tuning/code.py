@@ -7,6 +7,7 @@ from typing import Any
 from forgetting.choice import Choice
 from forgetting.choices import AXES, Rate
 from forgetting.models.named import NamedModel
+from forgetting.models.orders import Each
 from forgetting.tuning.candidate import Candidate
 
 
@@ -44,14 +45,19 @@ def model_code(candidate: Candidate, offset: bool = False) -> str:
     assert orders is not None
     if isinstance(orders, NamedModel):
         name = type(orders.make()).__name__
-        said = {order: list(v) if isinstance(v, tuple) else v for order, v in orders.orders}
+        said = {order: listed(value) for order, value in orders.orders}
     else:
-        name, said = "ARX", {"na": orders.na, "nb": orders.nb, "nk": orders.nk}
+        name, said = "ARX", {"na": orders.na, "nb": listed(orders.nb), "nk": listed(orders.nk)}
     lags = ", ".join(f"{order}={value}" for order, value in said.items())
     lags += ", offset=True" if offset else ""
     if candidate.rule is None:
         return f"fg.{name}({lags})"
     return f"fg.{name}({lags}, rule={code(candidate.rule)}{prior_code(candidate)})"
+
+
+def listed(order: Each) -> int | list[int]:
+    """An order as a constructor takes it."""
+    return order if isinstance(order, int) else list(order)
 
 
 def prior_code(candidate: Candidate) -> str:

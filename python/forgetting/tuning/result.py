@@ -8,7 +8,7 @@ from typing import Any
 
 from forgetting.choices import Rule
 from forgetting.models.named import NamedModel
-from forgetting.models.orders import Orders
+from forgetting.models.orders import Each, Orders
 from forgetting.tuning.candidate import Candidate
 from forgetting.tuning.code import code
 from forgetting.tuning.problem import Split
@@ -193,7 +193,7 @@ def as_data(trial: Trial) -> dict[str, Any]:
     }
 
 
-def orders_as_data(orders: ModelOrders | None) -> Sequence[int] | str | None:
+def orders_as_data(orders: ModelOrders | None) -> Sequence[Each] | str | None:
     """na, nb, nk; or the structure and its orders as one text."""
     return [orders.na, orders.nb, orders.nk] if isinstance(orders, Orders) else text_of(orders)
 

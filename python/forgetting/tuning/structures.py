@@ -6,14 +6,14 @@ import re
 from collections.abc import Iterator, Sequence
 from itertools import product
 from math import prod
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from forgetting._core import InvalidInput, structures
 from forgetting.models.named import NamedModel, Order, parts, value_of
 from forgetting.models.orders import Orders, per_input
-from forgetting.tuning.orders import MOST_MODELS, USUAL_NA, order_grid, widest
+from forgetting.tuning.orders import MOST_MODELS, USUAL_NA, as_order, order_grid, widest
 
 ModelOrders = Orders | NamedModel
 """Orders of an ARX model, or a structure with its orders."""
@@ -67,16 +67,10 @@ def models_of(text: str, inputs: int) -> list[Orders] | list[NamedModel]:
 
 def arx_grid(name: str, ranges: dict[str, Sequence[Order]], inputs: int) -> list[Orders]:
     """The same for a model that is linear in its parameters, as ARX orders."""
-    chosen: dict[str, list[int] | None] = {order: [value] for order, value in FIXED[name].items()}
-    for order, values in ranges.items():
-        whole = [value for value in values if isinstance(value, int)]
-        if len(whole) < len(values):
-            raise InvalidInput(
-                f"a model {name} has the same orders for all inputs here, as in nb=2"
-            )
-        chosen[order] = whole
-    na = chosen.get("na")
-    return order_grid(USUAL_NA if na is None else na, chosen.get("nb"), chosen.get("nk"), inputs)
+    chosen: dict[str, Sequence[Any]] = {order: [value] for order, value in FIXED[name].items()}
+    chosen |= ranges
+    na = chosen.get("na", USUAL_NA)
+    return order_grid(na, chosen.get("nb"), chosen.get("nk"), inputs)
 
 
 def values_of(name: str, order: str, text: str) -> Sequence[Order]:
@@ -99,7 +93,7 @@ def values_of(name: str, order: str, text: str) -> Sequence[Order]:
 def widest_of(models: Sequence[ModelOrders], inputs: int) -> ModelOrders:
     """A model whose lags hold those of all, which are of one structure."""
     named = [each for each in models if isinstance(each, NamedModel)]
-    return widest_named(named, inputs) if named else widest(list(plain(models)))
+    return widest_named(named, inputs) if named else widest(list(plain(models)), inputs)
 
 
 def plain(models: Sequence[ModelOrders]) -> Iterator[Orders]:
@@ -134,9 +128,3 @@ def widest_named(models: Sequence[NamedModel], inputs: int) -> NamedModel:
         found["nb"] = as_order((lags["nb"] + lags["nk"]).max(axis=0) - newest)
         found["nk"] = as_order(newest)
     return NamedModel(models[0].name, tuple(found.items()))
-
-
-def as_order(each: NDArray[np.int64]) -> Order:
-    """One number where all inputs have the same, else one for each."""
-    values = tuple(map(int, each))
-    return values[0] if len(set(values)) == 1 else values

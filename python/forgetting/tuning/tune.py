@@ -166,7 +166,7 @@ def tune_arx(
     return choose(
         make,
         models,
-        make(widest(models)),
+        make(widest(models, inputs.shape[1])),
         lambda candidate: Lines(model_code(candidate)),
         rules=rules,
         rates=rates,

@@ -8,7 +8,27 @@ use crate::report::Report;
 use core::ptr::null;
 use core::slice::{from_raw_parts, from_raw_parts_mut};
 
-/// The kind of an estimator that computes with `number`, of n parameters, if `pointers` are not null.
+/// The kind of an estimator that computes with `number`, if `pointers` are not null.
+///
+/// # Safety
+/// `estimator` is null or points to memory for one.
+unsafe fn of_number(
+    estimator: *mut Estimator,
+    number: Number,
+    pointers: &[bool],
+) -> Result<&'static Kind, Code> {
+    // SAFETY: as above.
+    let kind = unsafe { Head::kind(estimator)? };
+    if pointers.iter().any(|null| *null) {
+        Err(Code::Null)
+    } else if kind.number != number {
+        Err(Code::NumberType)
+    } else {
+        Ok(kind)
+    }
+}
+
+/// The same of an estimator of n parameters.
 ///
 /// # Safety
 /// `estimator` is null or points to memory for one.
@@ -19,22 +39,18 @@ unsafe fn checked(
     pointers: &[bool],
 ) -> Result<&'static Kind, Code> {
     // SAFETY: as above.
-    let kind = unsafe { Head::kind(estimator)? };
-    if pointers.iter().any(|null| *null) {
-        Err(Code::Null)
-    } else if kind.number != number {
-        Err(Code::NumberType)
+    let kind = unsafe { of_number(estimator, number, pointers)? };
     // SAFETY: it has a kind.
-    } else if unsafe { Head::parameters(estimator) } != n {
-        Err(Code::Length)
-    } else {
+    if unsafe { Head::parameters(estimator) } == n {
         Ok(kind)
+    } else {
+        Err(Code::Length)
     }
 }
 
 macro_rules! typed {
     ($T:ty, $number:expr, $update:ident, $update_after:ident, $predict:ident, $theta:ident,
-     $set_theta:ident, $bounded:ident, $covariance:ident) => {
+     $set_theta:ident, $bounded:ident, $covariance:ident, $weights:ident) => {
         /// Takes a sample.
         ///
         /// # Safety
@@ -187,6 +203,25 @@ macro_rules! typed {
                 }))
             }
         }
+
+        /// How far each member of a bank is believed.
+        ///
+        /// # Safety
+        /// Each pointer is null or points to what it says.
+        #[no_mangle]
+        pub unsafe extern "C" fn $weights(
+            estimator: *mut Estimator,
+            weights: *mut $T,
+            members: usize,
+        ) -> i32 {
+            // SAFETY: as above.
+            unsafe {
+                code(
+                    of_number(estimator, $number, &[weights.is_null()])
+                        .and_then(|kind| (kind.weights)(estimator, weights.cast(), members)),
+                )
+            }
+        }
     };
 }
 typed!(
@@ -198,7 +233,8 @@ typed!(
     fg_theta_f32,
     fg_set_theta_f32,
     fg_bounded_f32,
-    fg_covariance_f32
+    fg_covariance_f32,
+    fg_weights_f32
 );
 typed!(
     f64,
@@ -209,5 +245,6 @@ typed!(
     fg_theta_f64,
     fg_set_theta_f64,
     fg_bounded_f64,
-    fg_covariance_f64
+    fg_covariance_f64,
+    fg_weights_f64
 );

@@ -6,9 +6,7 @@ mod saving;
 
 pub(crate) use after::update_after;
 pub(crate) use bounds::bounded;
-#[cfg(feature = "general")]
-pub use saving::Whole;
-pub use saving::{Saving, View};
+pub use saving::{Saving, View, Whole};
 
 use crate::code::{Code, Why};
 use crate::model::Model;
@@ -67,6 +65,8 @@ pub struct Kind {
     pub(crate) set_theta: unsafe fn(*mut Head, *const u8) -> Outcome,
     /// where to write n x n numbers
     pub(crate) covariance: unsafe fn(*mut Head, *mut u8),
+    /// where to write a number for each member of a bank, and for how many there is room
+    pub(crate) weights: unsafe fn(*mut Head, *mut u8, usize) -> Result<(), Code>,
 }
 
 impl Kind {
@@ -87,6 +87,7 @@ impl Kind {
             theta: theta::<E>,
             set_theta: set_theta::<E>,
             covariance: covariance::<E>,
+            weights: weights::<E>,
         }
     }
 
@@ -233,4 +234,19 @@ unsafe fn covariance<E: Model>(head: *mut Head, covariance: *mut u8) {
         let n = estimator.parameters();
         estimator.covariance(from_raw_parts_mut(covariance.cast::<E::Real>(), n * n));
     }
+}
+
+unsafe fn weights<E: Model>(head: *mut Head, weights: *mut u8, members: usize) -> Result<(), Code> {
+    // SAFETY: its kind says so, and the caller has checked the pointers.
+    unsafe {
+        let own = at::<E>(head).weights();
+        if own.is_empty() {
+            return Err(Code::Unsupported);
+        }
+        if own.len() != members {
+            return Err(Code::Length);
+        }
+        weights.cast::<E::Real>().copy_from_nonoverlapping(own.as_ptr(), members);
+    }
+    Ok(())
 }

@@ -69,10 +69,7 @@ where
         if variance == 0.0 {
             return Err(Error::Missing { parameter: "initial_covariance" }.into());
         }
-        let mut theta = [T::ZERO; N];
-        for (theta, &given) in theta.iter_mut().zip(settings.initial_theta().unwrap_or_default()) {
-            *theta = T::from_f64(given);
-        }
+        let theta = settings.theta_of::<T, N>();
         let made =
             Compact::new(&given.values(), T::from_f64(lambda), T::from_f64(variance), &theta)?;
         Ok(Self(made))

@@ -1,5 +1,6 @@
 //! What the library needs of an estimator.
 
+pub mod bank;
 pub mod compact;
 #[cfg(feature = "general")]
 pub mod general;
@@ -55,6 +56,10 @@ pub trait Model: Sized + 'static {
     fn set_theta(&mut self, theta: &[Self::Real]) -> Result<(), Why>;
     /// P, written to n x n numbers.
     fn covariance(&mut self, covariance: &mut [Self::Real]);
+    /// How far each member of a bank is believed; nothing of an estimator that is none.
+    fn weights(&self) -> &[Self::Real] {
+        &[]
+    }
 }
 
 /// One that saves and loads itself, and knows what time and noise do to it.

@@ -1,10 +1,10 @@
 //! Gross errors, as the mixer is shown them where the members of a bank are weighted.
 
+use super::members::Members;
 use super::mixture::Mixture;
 use crate::memory::state::{State, Visitor};
 use crate::sample::NoiseVariance;
-use alloc::vec::Vec;
-use forgetting_kernels::Kernels;
+use forgetting_kernels::{Kernels, Real};
 
 /// Standard deviations at which errors are clipped.
 const LIMIT: f64 = 3.0;
@@ -12,12 +12,12 @@ const LIMIT: f64 = 3.0;
 /// How large the errors of the mixture usually are, target by target; of no target where every sample
 /// is trusted alike.
 #[derive(Clone, Debug)]
-pub(super) struct Clip<T>(Vec<NoiseVariance<T>>);
+pub(super) struct Clip<G: Members>(G::NoiseVariances);
 
-impl<T: Kernels> Clip<T> {
+impl<T: Kernels, G: Members<Real = T>> Clip<G> {
     /// For members that are weighted, or not.
-    pub fn new(targets: usize, is_weighted: bool) -> Self {
-        Self(alloc::vec![NoiseVariance::UNKNOWN; if is_weighted { targets } else { 0 }])
+    pub fn new(members: &G, targets: usize) -> Self {
+        Self(members.noise_variances(if members.is_weighted() { targets } else { 0 }))
     }
 
     /// Clips the whitened errors of all members at three standard deviations of the mixture's. One gross
@@ -25,13 +25,14 @@ impl<T: Kernels> Clip<T> {
     /// takes the place of its own error, `mixed`.
     pub fn clip(
         &mut self,
-        mixture: &Mixture<T>,
+        mixture: &Mixture<G>,
         (errors, mixed): (&mut [T], &mut [T]),
         awake: &[bool],
         parameters: usize,
     ) {
-        let (targets, width) = (self.0.len(), mixed.len());
-        for (t, usual) in self.0.iter_mut().enumerate() {
+        let usual = self.0.as_mut();
+        let (targets, width) = (usual.len(), mixed.len());
+        for (t, usual) in usual.iter_mut().enumerate() {
             let own = (t..width).step_by(targets);
             let squared = own.clone().fold(T::ZERO, |sum, j| sum + mixed[j] * mixed[j]);
             if let Some(variance) = usual.known() {
@@ -40,7 +41,7 @@ impl<T: Kernels> Clip<T> {
                     for e in errors.iter_mut().skip(j).step_by(width) {
                         *e = e.max(-limit).min(limit);
                     }
-                    mixed[j] = mixture.mean_of(&|i| errors[i * width + j], awake);
+                    mixed[j] = mixture.mean_of(errors.iter().skip(j).step_by(width), awake);
                 }
             }
             if NoiseVariance::<T>::is_settled(mixture.samples(), parameters) {
@@ -51,12 +52,12 @@ impl<T: Kernels> Clip<T> {
     }
 }
 
-impl<T: Kernels> State<T> for Clip<T> {
+impl<T: Real, G: Members<Real = T>> State<T> for Clip<G> {
     fn visit(&mut self, visitor: &mut dyn Visitor<T>) {
-        self.0.iter_mut().for_each(|usual| usual.visit(visitor));
+        self.0.as_mut().iter_mut().for_each(|usual| usual.visit(visitor));
     }
 
     fn is_sound(&self) -> bool {
-        self.0.iter().all(State::is_sound)
+        self.0.as_ref().iter().all(State::is_sound)
     }
 }

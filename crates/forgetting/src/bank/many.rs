@@ -1,13 +1,12 @@
 //! Many samples in one call, where the members run side by side.
 
+use super::members::Members;
 use super::{Bank, BankUpdate};
+use crate::error::Error;
 use crate::memory::Memory;
 use crate::mixers::Forecasts;
-use crate::sample::Answer;
+use crate::sample::{Answer, Noise};
 use forgetting_kernels::Kernels;
-
-/// The most samples that are measured before they are used.
-pub(super) const BATCH: usize = 32;
 
 /// What became of a sample of one row and one target.
 #[derive(Clone, Copy, Debug, Default)]
@@ -50,6 +49,45 @@ pub struct Kept<'a, T> {
 }
 
 impl<T: Kernels> Bank<T> {
+    /// Takes the sample of p x n numbers `phi` and p x m numbers `y` with the noise covariance
+    /// Γ = `noise`.
+    ///
+    /// # Errors
+    /// [`Error`] names what was wrong, if no member can take the sample; the bank is as it was, bit for
+    /// bit.
+    pub fn update(
+        &mut self,
+        phi: &[T],
+        y: &[T],
+        noise: Noise<'_, T>,
+    ) -> Result<BankUpdate<'_, T>, Error> {
+        self.update_after(T::ONE, phi, y, noise)
+    }
+
+    /// The same, `elapsed` after the last sample; see [`Estimator::update_after`](crate::Estimator).
+    ///
+    /// # Errors
+    /// Those of [`Bank::update`].
+    pub fn update_after(
+        &mut self,
+        elapsed: T,
+        phi: &[T],
+        y: &[T],
+        noise: Noise<'_, T>,
+    ) -> Result<BankUpdate<'_, T>, Error> {
+        let mut outcome = [BankOutcome::default()];
+        if matches!(noise, Noise::Unit)
+            && elapsed == T::ONE
+            && (phi.len(), y.len()) == (self.memory.parameters(), 1)
+            && self.update_many(phi, y, &mut outcome, &mut Kept::default()) == 1
+        {
+            let error = self.buffers.error.as_mut();
+            error[0] = outcome[0].error;
+            return Ok(outcome[0].report(error));
+        }
+        self.update_in_steps(elapsed, phi, y, noise)
+    }
+
     /// Takes samples of n numbers `phi` and one number `y` each, in one call; writes what became of
     /// each to `outcomes` and returns how many it took, at most as many as there are outcomes.
     ///

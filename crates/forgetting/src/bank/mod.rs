@@ -13,33 +13,45 @@
 //! A bank of one is that estimator, bit for bit.
 
 mod clip;
+mod defaults;
+#[cfg(feature = "alloc")]
 mod group;
+#[cfg(feature = "alloc")]
 mod many;
 mod members;
 mod mixture;
 mod read;
 mod steps;
+#[cfg(feature = "alloc")]
 mod together;
 mod whiten;
 
+#[cfg(feature = "alloc")]
+pub use defaults::default_members;
+pub use defaults::DEFAULT_NOISE;
+#[cfg(feature = "alloc")]
 pub use many::{BankOutcome, Kept};
-pub use members::{default_members, DEFAULT_NOISE};
+pub(crate) use members::{mix, Brought, Member, Members};
 
-use crate::error::Error;
-use crate::estimator::AnyEstimator;
-use crate::memory::{Aligned, Dynamic, Memory};
-use crate::mixers::{AnyMixer, AnyMixerState, Mixer};
-use crate::sample::{Answer, Noise, Skip};
+use crate::memory::Memory;
+use crate::mixers::Mixer;
+use crate::sample::{Answer, Skip};
 use crate::units::Units;
-use crate::weightings::Weighting;
-use alloc::vec::Vec;
 use clip::Clip;
 use forgetting_kernels::Kernels;
-use group::Group;
 use mixture::Mixture;
-use steps::Taken;
+#[cfg(feature = "alloc")]
+use {
+    crate::error::Error, crate::estimator::AnyEstimator, crate::memory::Dynamic,
+    crate::mixers::AnyMixer, alloc::vec::Vec, group::Group,
+};
 
-/// Estimators of the same sizes, and what mixes them.
+/// The most samples that are measured before they are used.
+#[cfg(feature = "alloc")]
+const BATCH: usize = 32;
+
+#[cfg(feature = "alloc")]
+/// Estimators of any kind and of the same sizes, and what mixes them.
 ///
 /// ```
 /// use forgetting::bank::{default_members, Bank};
@@ -58,46 +70,49 @@ use steps::Taken;
 /// assert!((bank.theta()[0] - 3.0).abs() < 1e-3);
 /// # Ok::<(), forgetting::Error>(())
 /// ```
+#[cfg(feature = "alloc")]
+pub type Bank<T> = Mixed<Group<T>, AnyMixer<Dynamic<T>>>;
+
+/// Estimators `G` of the same sizes, mixed by `X`: what every bank is, wherever its members are kept.
 #[derive(Clone, Debug)]
-pub struct Bank<T: Kernels> {
-    mixer: AnyMixer<Dynamic<T>>,
-    memory: Dynamic<T>,
+pub struct Mixed<G: Members, X: Mixer<G::Weighed>> {
+    mixer: X,
+    memory: G::Memory,
     /// whether the units of φ are those of the data
     follows_data: bool,
-    /// whether members trust some samples less than others
-    is_weighted: bool,
-    state: BankState<T>,
-    buffers: Buffers<T>,
+    state: BankState<G, X>,
+    buffers: Buffers<G>,
 }
 
 /// What the next sample needs.
 #[derive(Clone, Debug)]
-struct BankState<T: Kernels> {
-    members: Group<T>,
-    mixer: AnyMixerState<Dynamic<T>>,
-    mixture: Mixture<T>,
-    clip: Clip<T>,
-    units: Option<Units<Dynamic<T>>>,
+struct BankState<G: Members, X: Mixer<G::Weighed>> {
+    members: G,
+    mixer: X::State,
+    mixture: Mixture<G>,
+    clip: Clip<G>,
+    units: Option<Units<G::Memory>>,
 }
 
 /// What an update writes to, and the next one need not read.
 #[derive(Clone, Debug)]
-struct Buffers<T: Kernels> {
-    phi: Aligned<T>,
-    /// several samples in the units of the members
-    batch: Aligned<T>,
+struct Buffers<G: Members> {
+    phi: <G::Memory as Memory>::Rows,
+    /// several samples in the units of the members, where these can run side by side
+    #[cfg(feature = "alloc")]
+    batch: <G::Memory as Memory>::List,
     /// p x m numbers a member: y − φθ, in units of y
-    errors: Vec<T>,
+    errors: G::Numbers,
     /// the same, whitened
-    whitened: Vec<T>,
+    whitened: G::Numbers,
     /// of the mixture
-    error: Vec<T>,
-    mixed: Vec<T>,
-    leverages: Vec<T>,
-    awake: Vec<bool>,
+    error: <G::Memory as Memory>::Errors,
+    mixed: <G::Memory as Memory>::Errors,
+    leverages: G::Numbers,
+    awake: G::Flags,
     /// θ of the mixture in the units of the user, m x n numbers
-    theta: Aligned<T>,
-    root: Aligned<T>,
+    theta: <G::Memory as Memory>::Parameters,
+    root: <G::Memory as Memory>::Noise,
 }
 
 /// What a bank reports of a sample.
@@ -120,6 +135,7 @@ pub struct BankUpdate<'a, T> {
     pub asleep: usize,
 }
 
+#[cfg(feature = "alloc")]
 impl<T: Kernels> Bank<T> {
     /// These members, mixed by `mixer`, which is made for as many. They take φ as it is.
     ///
@@ -141,52 +157,57 @@ impl<T: Kernels> Bank<T> {
         Self::with_units(members, mixer, true)
     }
 
-    pub(crate) fn with_units(
+    fn with_units(
         mut members: Vec<AnyEstimator<T>>,
         mixer: AnyMixer<Dynamic<T>>,
         follows_data: bool,
     ) -> Result<Self, Error> {
-        let memory = members::common_memory(&members)?;
-        let is_weighted = members.iter().any(|member| !member.weighting().is_equal());
-        members.iter_mut().for_each(|member| member.estimate_noise(follows_data));
-        let of_members = Dynamic::new(members.len(), 1, 1)?;
-        let (count, width) = (members.len(), memory.rows() * memory.targets());
-        let zeros = |length| alloc::vec![T::ZERO; length];
+        members.iter_mut().for_each(|member| {
+            member.estimate_noise(follows_data);
+            member.reset();
+        });
+        Ok(Self::of_members(Group::new(members)?, mixer, follows_data))
+    }
+}
+
+impl<T: Kernels, G: Members<Real = T>, X: Mixer<G::Weighed>> Mixed<G, X> {
+    /// These members as they are, mixed by `mixer` from its start.
+    pub(crate) fn of_members(members: G, mixer: X, follows_data: bool) -> Self {
+        let memory = members.memory();
+        let width = memory.rows() * memory.targets();
         let buffers = Buffers {
             phi: memory.regressors(),
-            batch: memory.list(many::BATCH * memory.parameters()),
-            errors: zeros(count * width),
-            whitened: zeros(count * width),
-            error: zeros(width),
-            mixed: zeros(width),
-            leverages: zeros(count),
-            awake: alloc::vec![true; count],
+            #[cfg(feature = "alloc")]
+            batch: memory.list(BATCH * memory.parameters()),
+            errors: members.numbers(width),
+            whitened: members.numbers(width),
+            error: memory.errors(),
+            mixed: memory.errors(),
+            leverages: members.numbers(1),
+            awake: members.flags(),
             theta: memory.theta(),
             root: memory.noise(),
         };
         let state = BankState {
-            mixer: mixer.start(of_members),
-            mixture: Mixture::new(count, memory.targets()),
-            clip: Clip::new(memory.targets(), is_weighted),
+            mixer: mixer.start(members.weighed()),
+            mixture: Mixture::new(&members),
+            clip: Clip::new(&members, memory.targets()),
             units: follows_data.then(|| Units::new(memory)),
-            members: Group::new(members),
+            members,
         };
-        let mut bank = Self { mixer, memory, follows_data, is_weighted, state, buffers };
-        bank.reset();
-        Ok(bank)
+        let mut bank = Self { mixer, memory, follows_data, state, buffers };
+        bank.express();
+        bank
     }
 
     /// Back to the prior, as if no sample had been seen.
     pub fn reset(&mut self) {
-        let Self { mixer, memory, follows_data, is_weighted, state, .. } = self;
-        let count = state.members.count();
-        state.members.each().iter_mut().for_each(AnyEstimator::reset);
-        // as many were allowed before
-        if let Ok(of_members) = Dynamic::new(count, 1, 1) {
-            state.mixer = mixer.start(of_members);
-        }
-        state.mixture = Mixture::new(count, memory.targets());
-        state.clip = Clip::new(memory.targets(), *is_weighted);
+        let Self { mixer, memory, follows_data, state, .. } = self;
+        let BankState { members, .. } = state;
+        members.each().iter_mut().for_each(Member::reset);
+        state.mixer = mixer.start(members.weighed());
+        state.mixture = Mixture::new(members);
+        state.clip = Clip::new(members, memory.targets());
         state.units = follows_data.then(|| Units::new(*memory));
         self.express();
     }
@@ -195,73 +216,11 @@ impl<T: Kernels> Bank<T> {
     ///
     /// # Errors
     /// Those of `work`.
-    pub fn all_or_nothing<X, E>(
+    pub fn all_or_nothing<Y, E>(
         &mut self,
-        work: impl FnOnce(&mut Self) -> Result<X, E>,
-    ) -> Result<X, E> {
+        work: impl FnOnce(&mut Self) -> Result<Y, E>,
+    ) -> Result<Y, E> {
         let (before, theta) = (self.state.clone(), self.buffers.theta.clone());
         work(self).inspect_err(|_| (self.state, self.buffers.theta) = (before, theta))
-    }
-
-    /// Takes the sample of p x n numbers `phi` and p x m numbers `y` with the noise covariance
-    /// Γ = `noise`.
-    ///
-    /// # Errors
-    /// [`Error`] names what was wrong, if no member can take the sample; the bank is as it was, bit for
-    /// bit.
-    pub fn update(
-        &mut self,
-        phi: &[T],
-        y: &[T],
-        noise: Noise<'_, T>,
-    ) -> Result<BankUpdate<'_, T>, Error> {
-        self.update_after(T::ONE, phi, y, noise)
-    }
-
-    /// The same, `elapsed` after the last sample; see [`Estimator::update_after`](crate::Estimator).
-    ///
-    /// # Errors
-    /// Those of [`Bank::update`].
-    pub fn update_after(
-        &mut self,
-        elapsed: T,
-        phi: &[T],
-        y: &[T],
-        noise: Noise<'_, T>,
-    ) -> Result<BankUpdate<'_, T>, Error> {
-        let mut outcome = [BankOutcome::default()];
-        if matches!(noise, Noise::Unit)
-            && elapsed == T::ONE
-            && (phi.len(), y.len()) == (self.memory.parameters(), 1)
-            && self.update_many(phi, y, &mut outcome, &mut Kept::default()) == 1
-        {
-            self.buffers.error[0] = outcome[0].error;
-            return Ok(outcome[0].report(&self.buffers.error));
-        }
-        self.measure(phi, noise.deviation())?;
-        let taken = self.update_members(y, noise, elapsed);
-        let Taken { forgetting_factor, skipped, gate, windup, asleep } = match taken {
-            Ok(taken) => taken,
-            Err(error) => {
-                if let Some(units) = &mut self.state.units {
-                    units.unchoose(|_, _| {});
-                }
-                return Err(error);
-            }
-        };
-        self.mix(noise);
-        let leverage = self.state.mixture.mean(&self.buffers.leverages, &self.buffers.awake);
-        self.learn(skipped.is_none().then_some(leverage));
-        if let Some(units) = &mut self.state.units {
-            match skipped {
-                None => units.learn_one(self.buffers.phi.as_mut(), noise.deviation()),
-                Some(_) => units.unchoose(|_, _| {}),
-            }
-        }
-        if skipped.is_none() {
-            self.follow();
-        }
-        let error = &self.buffers.error;
-        Ok(BankUpdate { error, leverage, forgetting_factor, skipped, gate, windup, asleep })
     }
 }

@@ -1,20 +1,17 @@
 //! Reading a bank: predictions, θ, P, weights, memory, its members.
 
-use super::Bank;
-use super::Group;
-use crate::covariance::Factor;
+use super::members::{Member, Members};
+use super::Mixed;
 use crate::error::Error;
-use crate::estimator::AnyEstimator;
 use crate::memory::state::{State, Visitor};
-use crate::memory::Dynamic;
 use crate::memory::Memory;
-use crate::mixers::AnyMixer;
-use alloc::borrow::Cow;
-use alloc::vec::Vec;
+use crate::mixers::Mixer;
 use forgetting_kernels::kernel::functions::dot;
 use forgetting_kernels::{Kernels, Real};
+#[cfg(feature = "alloc")]
+use {super::Bank, crate::estimator::AnyEstimator, alloc::borrow::Cow};
 
-impl<T: Kernels> Bank<T> {
+impl<T: Kernels, G: Members<Real = T>, X: Mixer<G::Weighed>> Mixed<G, X> {
     /// φθ for rows of n numbers `phi`; writes m numbers a row to `prediction`.
     ///
     /// # Errors
@@ -58,30 +55,100 @@ impl<T: Kernels> Bank<T> {
     pub fn covariance(&self, dense: &mut [T]) {
         let memory = self.memory;
         let n = memory.parameters();
-        let mut own = alloc::vec![T::ZERO; n * n];
-        let mut distance = alloc::vec![T::ZERO; n];
+        let (mut own, mut distance) = (memory.square(), memory.vector());
+        let (own, distance) = (own.as_mut(), distance.as_mut());
         dense.fill(T::ZERO);
         self.state.members.visit_each(|i, member| {
             let weight = self.weights()[i];
             if !(weight > T::ZERO) {
                 return;
             }
-            self.in_units(member.factor()).reconstruct(&mut own);
-            dense.iter_mut().zip(&own).for_each(|(sum, &p)| *sum += weight * p);
+            member.covariance(self.reciprocal_units(), own);
+            dense.iter_mut().zip(&*own).for_each(|(sum, &p)| *sum += weight * p);
             for (t, theta) in member.theta().chunks_exact(n).enumerate() {
                 distance.copy_from_slice(theta);
                 if let Some(units) = &self.state.units {
-                    units.express(&mut distance);
+                    units.express(distance);
                 }
                 let mixed = &self.theta()[t * n..(t + 1) * n];
                 distance.iter_mut().zip(mixed).for_each(|(own, &mixed)| *own -= mixed);
                 if let Some(per_target) = self.disagreement_in(t) {
-                    add_square(dense, weight / per_target, &distance);
+                    add_square(dense, weight / per_target, distance);
                 }
             }
         });
     }
 
+    /// What squares of distances between members are divided by for target t, to be in units of the
+    /// noise variance and averaged over targets; nothing where members cannot disagree.
+    fn disagreement_in(&self, t: usize) -> Option<T> {
+        let targets = T::from_f64(self.memory.targets() as f64);
+        let per_target = self.state.mixture.target_variance(t) * targets;
+        (per_target > T::ZERO && self.state.members.count() > 1).then_some(per_target)
+    }
+
+    /// Samples used since the start.
+    pub fn samples(&self) -> u64 {
+        self.state.mixture.samples()
+    }
+
+    /// Its sizes.
+    pub fn memory(&self) -> G::Memory {
+        self.memory
+    }
+
+    /// Whether φ is measured in units that the data choose.
+    pub fn follows_data(&self) -> bool {
+        self.follows_data
+    }
+
+    /// 1/s_i, where the bank follows the data: its members are given φ_i/s_i.
+    pub fn reciprocal_units(&self) -> Option<&[T]> {
+        self.state.units.as_ref().map(|units| units.reciprocals())
+    }
+
+    /// Whether what the bank remembers is what it can: as after every sample.
+    pub fn is_sound(&self) -> bool {
+        let (state, mut members) = (&self.state, true);
+        state.members.visit_each(|_, member| members &= member.is_sound());
+        members
+            && state.mixer.is_sound()
+            && state.mixture.is_sound()
+            && state.clip.is_sound()
+            && state.units.as_ref().is_none_or(State::is_sound)
+    }
+
+    /// Shows every number of the state to `visitor`, which may put others in their place: as many, and in
+    /// the same order, as those of any bank of the same members, mixer and units.
+    pub fn visit(&mut self, visitor: &mut dyn Visitor<T>) {
+        self.state.members.visit(visitor);
+        self.visit_own(visitor);
+    }
+
+    /// What mixes them.
+    pub fn mixer(&self) -> &X {
+        &self.mixer
+    }
+
+    /// The members, to be updated one by one.
+    pub(crate) fn each(&mut self) -> &mut [G::Member] {
+        self.state.members.each()
+    }
+
+    /// Shows every number of the state but those of the members to `visitor`.
+    pub(crate) fn visit_own(&mut self, visitor: &mut dyn Visitor<T>) {
+        self.state.mixer.visit(visitor);
+        self.state.mixture.visit(visitor);
+        self.state.clip.visit(visitor);
+        if let Some(units) = &mut self.state.units {
+            units.visit(visitor);
+        }
+        self.express();
+    }
+}
+
+#[cfg(feature = "alloc")]
+impl<T: Kernels> Bank<T> {
     /// The diagonal of P of the mixture, n numbers. O(K n²).
     pub fn variances(&self, variances: &mut [T]) {
         let (n, m) = (self.memory.parameters(), self.memory.targets());
@@ -105,31 +172,9 @@ impl<T: Kernels> Bank<T> {
         });
     }
 
-    /// What squares of distances between members are divided by for target t, to be in units of the
-    /// noise variance and averaged over targets; nothing where members cannot disagree.
-    fn disagreement_in(&self, t: usize) -> Option<T> {
-        let targets = T::from_f64(self.memory.targets() as f64);
-        let per_target = self.state.mixture.target_variance(t) * targets;
-        (per_target > T::ZERO && self.state.members.count() > 1).then_some(per_target)
-    }
-
-    /// P of a member in the units of the user.
-    fn in_units(&self, factor: &Factor<Dynamic<T>>) -> Factor<Dynamic<T>> {
-        let mut factor = factor.clone();
-        if let Some(units) = &self.state.units {
-            factor.express(units.reciprocals());
-        }
-        factor
-    }
-
     /// Whether P of each member that is believed has wound up.
     pub fn windup(&self) -> bool {
         self.state.members.windup(self.weights())
-    }
-
-    /// Samples used since the start.
-    pub fn samples(&self) -> u64 {
-        self.state.mixture.samples()
     }
 
     /// The members. Where the bank follows the data, θ and P of a member are in units of the bank.
@@ -137,63 +182,9 @@ impl<T: Kernels> Bank<T> {
         self.state.members.read()
     }
 
-    /// What mixes them.
-    pub fn mixer(&self) -> &AnyMixer<Dynamic<T>> {
-        &self.mixer
-    }
-
-    /// Its sizes.
-    pub fn memory(&self) -> Dynamic<T> {
-        self.memory
-    }
-
-    /// Whether φ is measured in units that the data choose.
-    pub fn follows_data(&self) -> bool {
-        self.follows_data
-    }
-
-    /// 1/s_i, where the bank follows the data: its members are given φ_i/s_i.
-    pub fn reciprocal_units(&self) -> Option<&[T]> {
-        self.state.units.as_ref().map(|units| units.reciprocals())
-    }
-
-    /// Whether what the bank remembers is what it can: as after every sample.
-    pub fn is_sound(&self) -> bool {
-        let state = &self.state;
-        self.members().iter().all(AnyEstimator::is_sound)
-            && state.mixer.is_sound()
-            && state.mixture.is_sound()
-            && state.clip.is_sound()
-            && state.units.as_ref().is_none_or(State::is_sound)
-    }
-
-    /// Shows every number of the state to `visitor`, which may put others in their place: as many, and in
-    /// the same order, as those of any bank of the same members, mixer and units.
-    pub fn visit(&mut self, visitor: &mut dyn Visitor<T>) {
-        self.state.members.visit(visitor);
-        self.visit_own(visitor);
-    }
-
     /// The members, of which only what they are made of is to be read.
     pub(crate) fn made(&self) -> &[AnyEstimator<T>] {
         self.state.members.made()
-    }
-
-    /// Puts members of the same kind in the place of those that it has.
-    pub(crate) fn put_members(&mut self, members: Vec<AnyEstimator<T>>) {
-        self.state.members = Group::new(members);
-        self.express();
-    }
-
-    /// Shows every number of the state but those of the members to `visitor`.
-    pub(crate) fn visit_own(&mut self, visitor: &mut dyn Visitor<T>) {
-        self.state.mixer.visit(visitor);
-        self.state.mixture.visit(visitor);
-        self.state.clip.visit(visitor);
-        if let Some(units) = &mut self.state.units {
-            units.visit(visitor);
-        }
-        self.express();
     }
 }
 

@@ -1,17 +1,63 @@
 //! What a bank does with one sample, step by step.
 
+use super::members::{Brought, Member, Members};
 use super::whiten::whiten;
-use super::{Bank, BankState, Buffers};
+use super::{BankState, BankUpdate, Buffers, Mixed};
 use crate::error::Error;
-use crate::estimator::AnyEstimator;
 use crate::memory::Memory;
-use crate::mixers::Forecasts;
+use crate::mixers::{Forecasts, Mixer};
 use crate::sample::{Answer, Noise, Skip};
-use forgetting_kernels::Kernels;
+use forgetting_kernels::{Kernels, Real};
 
-impl<T: Kernels> Bank<T> {
+impl<T: Kernels, G: Members<Real = T>, X: Mixer<G::Weighed>> Mixed<G, X> {
+    /// Takes a sample `elapsed` after the last one, member by member.
+    ///
+    /// # Errors
+    /// [`Error`] names what was wrong, if no member can take the sample; the bank is as it was, bit for
+    /// bit.
+    pub(crate) fn update_in_steps(
+        &mut self,
+        elapsed: T,
+        phi: &[T],
+        y: &[T],
+        noise: Noise<'_, T>,
+    ) -> Result<BankUpdate<'_, T>, Error> {
+        let noise = match noise {
+            Noise::Full(_) if !G::SEVERAL_ROWS => {
+                return Err(Error::Unsupported { reason: "a matrix gamma is for several rows" });
+            }
+            noise => noise,
+        };
+        self.measure(phi, noise.deviation())?;
+        let taken = self.update_members(y, noise, elapsed);
+        let Taken { forgetting_factor, skipped, gate, windup, asleep } = match taken {
+            Ok(taken) => taken,
+            Err(error) => {
+                if let Some(units) = &mut self.state.units {
+                    units.unchoose(|_, _| {});
+                }
+                return Err(error);
+            }
+        };
+        self.mix(noise);
+        let Buffers { leverages, awake, .. } = &self.buffers;
+        let leverage = self.state.mixture.mean(leverages.as_ref(), awake.as_ref());
+        self.learn(skipped.is_none().then_some(leverage));
+        if let Some(units) = &mut self.state.units {
+            match skipped {
+                None => units.learn_one(self.buffers.phi.as_mut(), noise.deviation()),
+                Some(_) => units.unchoose(|_, _| {}),
+            }
+        }
+        if skipped.is_none() {
+            self.follow();
+        }
+        let error = self.buffers.error.as_ref();
+        Ok(BankUpdate { error, leverage, forgetting_factor, skipped, gate, windup, asleep })
+    }
+
     /// φ in the units of the members, of which √Γ is the `deviation`.
-    pub(super) fn measure(&mut self, phi: &[T], deviation: T) -> Result<(), Error> {
+    fn measure(&mut self, phi: &[T], deviation: T) -> Result<(), Error> {
         let measured = self.buffers.phi.as_mut();
         Error::check_length("phi", phi.len(), measured.len())?;
         match &mut self.state.units {
@@ -25,7 +71,7 @@ impl<T: Kernels> Bank<T> {
     }
 
     /// Each member takes the sample, or sleeps.
-    pub(super) fn update_members(
+    fn update_members(
         &mut self,
         y: &[T],
         noise: Noise<'_, T>,
@@ -33,8 +79,7 @@ impl<T: Kernels> Bank<T> {
     ) -> Result<Taken<T>, Error> {
         let Buffers { phi, errors, leverages, awake, .. } = &mut self.buffers;
         let BankState { members, mixture, .. } = &mut self.state;
-        let members = members.each();
-        let (width, count) = (errors.len() / members.len(), members.len());
+        let (width, count) = (self.memory.rows() * self.memory.targets(), members.count());
         let mut refused = None;
         let mut taken = Taken {
             forgetting_factor: T::ZERO,
@@ -44,26 +89,27 @@ impl<T: Kernels> Bank<T> {
             asleep: 0,
         };
         let (mut left_out, mut believed, mut most) = (0, T::ZERO, T::ZERO);
-        for (i, member) in members.iter_mut().enumerate() {
-            let weight = mixture.weights()[i];
-            match member.update_after(elapsed, phi.as_ref(), y, noise) {
-                Ok(update) => {
-                    awake[i] = true;
-                    errors[i * width..(i + 1) * width].copy_from_slice(update.error);
-                    leverages[i] = update.leverage;
-                    taken.forgetting_factor += weight * update.forgetting_factor;
-                    taken.windup &= update.windup || weight == T::ZERO;
-                    taken.skipped = taken.skipped.or(update.skipped);
+        let places = errors.as_mut().chunks_exact_mut(width).zip(leverages.as_mut());
+        let places = places.zip(awake.as_mut()).zip(mixture.weights());
+        for (i, (member, place)) in members.each().iter_mut().zip(places).enumerate() {
+            let (((errors, leverage), awake), &weight) = place;
+            match member.take(elapsed, (phi.as_ref(), y), noise, errors) {
+                Ok(Brought { leverage: own, forgetting_factor, skipped, gate, windup }) => {
+                    *awake = true;
+                    *leverage = own;
+                    taken.forgetting_factor += weight * forgetting_factor;
+                    taken.windup &= windup || weight == T::ZERO;
+                    taken.skipped = taken.skipped.or(skipped);
                     if weight > most {
-                        (most, taken.gate) = (weight, update.gate);
+                        (most, taken.gate) = (weight, gate);
                     }
-                    left_out += usize::from(update.skipped.is_some());
+                    left_out += usize::from(skipped.is_some());
                     believed += weight;
                 }
                 // what is wrong with the sample itself is wrong for the first member, too
                 Err(error) if i == 0 && !matches!(error, Error::Range { .. }) => return Err(error),
                 Err(error) => {
-                    awake[i] = false;
+                    *awake = false;
                     taken.asleep += 1;
                     refused.get_or_insert(error);
                 }
@@ -84,28 +130,29 @@ impl<T: Kernels> Bank<T> {
     }
 
     /// The errors of the mixture, and all errors whitened.
-    pub(super) fn mix(&mut self, noise: Noise<'_, T>) {
+    fn mix(&mut self, noise: Noise<'_, T>) {
         let Buffers { errors, whitened, error, mixed, awake, root, .. } = &mut self.buffers;
-        let mixture = &self.state.mixture;
-        let targets = self.memory.targets();
-        mixture.errors(errors, awake, error);
-        whitened.copy_from_slice(errors);
+        let (targets, error) = (self.memory.targets(), error.as_mut());
+        let (whitened, mixed) = (whitened.as_mut(), mixed.as_mut());
+        self.state.mixture.errors(errors.as_ref(), awake.as_ref(), error);
+        whitened.copy_from_slice(errors.as_ref());
         mixed.copy_from_slice(error);
-        for errors in whitened.chunks_exact_mut(error.len()).chain([mixed.as_mut_slice()]) {
+        for errors in whitened.chunks_exact_mut(error.len()).chain([mixed]) {
             whiten(errors, targets, noise, root.as_mut());
         }
     }
 
     /// The mixer learns from a sample that was used, of which the mixture had this leverage.
-    pub(super) fn learn(&mut self, leverage: Option<T>) {
+    fn learn(&mut self, leverage: Option<T>) {
         let Self { mixer, memory, state, buffers, .. } = self;
         let BankState { mixture, clip, mixer: remembered, .. } = state;
         if let Some(leverage) = leverage {
             let Buffers { whitened, mixed, awake, .. } = buffers;
-            clip.clip(mixture, (whitened, mixed), awake, memory.parameters());
+            let numbers = (whitened.as_mut(), mixed.as_mut());
+            clip.clip(mixture, numbers, awake.as_ref(), memory.parameters());
             mixture.note(&buffers.forecasts(), leverage);
             let Buffers { whitened, mixed, .. } = buffers;
-            mixture.in_deviations(whitened, mixed);
+            mixture.in_deviations(whitened.as_mut(), mixed.as_mut());
         }
         let used = leverage.is_some().then(|| buffers.forecasts());
         mixture.learn((mixer, remembered), memory.parameters(), used.as_ref());
@@ -118,10 +165,7 @@ impl<T: Kernels> Bank<T> {
             if let Some(ratios) = units.due() {
                 let members = members.each();
                 let largest = ratios.iter().fold(T::ONE, |largest, &r| largest.max(r));
-                let fits = |member: &AnyEstimator<T>| {
-                    let trace = member.factor().trace();
-                    trace * largest * largest < T::CEILING
-                };
+                let fits = |member: &G::Member| member.trace() * largest * largest < T::CEILING;
                 if members.iter().all(fits) {
                     members.iter_mut().for_each(|member| member.change_units(ratios));
                     units.renew();
@@ -141,19 +185,23 @@ impl<T: Kernels> Bank<T> {
     }
 }
 
-impl<T: Kernels> Buffers<T> {
+impl<T: Real, G: Members<Real = T>> Buffers<G> {
     /// What the mixer is shown.
     fn forecasts(&self) -> Forecasts<'_, T> {
-        let Self { whitened, mixed, leverages, awake, .. } = self;
-        Forecasts { errors: whitened, mixed, leverages, awake }
+        Forecasts {
+            errors: self.whitened.as_ref(),
+            mixed: self.mixed.as_ref(),
+            leverages: self.leverages.as_ref(),
+            awake: self.awake.as_ref(),
+        }
     }
 }
 
 /// What the members did with a sample.
-pub(super) struct Taken<T> {
-    pub forgetting_factor: T,
-    pub skipped: Option<Skip>,
-    pub gate: Answer,
-    pub windup: bool,
-    pub asleep: usize,
+struct Taken<T> {
+    forgetting_factor: T,
+    skipped: Option<Skip>,
+    gate: Answer,
+    windup: bool,
+    asleep: usize,
 }

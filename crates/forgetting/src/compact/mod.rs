@@ -7,10 +7,13 @@
 //! the parameters of the rule. There is no monitor, no gate and no weighting.
 
 mod after;
+mod bank;
+mod member;
 mod saved;
 mod walk;
 
 pub use after::{Given, Pace};
+pub use bank::{Bank, Walks, MEMBERS};
 pub use saved::{load, save, Saved};
 pub use walk::Walk;
 
@@ -130,7 +133,8 @@ where
     /// What time does to it.
     pub fn pace(&self) -> Pace<T> {
         let share = match self.form(self.forgetting_factor, T::ONE) {
-            Ok(Form::Walk { noise, per_bound }) => noise * per_bound,
+            // the square of the root that the rule keeps, rounded as there
+            Ok(Form::Walk { noise, per_bound }) => noise.sqrt() * noise.sqrt() * per_bound,
             _ => T::ZERO,
         };
         Pace { factor: self.forgetting_factor, share }

@@ -141,11 +141,7 @@ where
     fn visit(&mut self, visitor: &mut dyn Visitor<T>) {
         visitor.reals(&mut self.initial_theta);
         visitor.reals(core::slice::from_mut(&mut self.initial_covariance));
-        visitor.reals(self.triangle.as_mut());
-        visitor.reals(&mut self.diagonal);
-        visitor.reals(core::slice::from_mut(&mut self.bound));
-        visitor.reals(&mut self.theta);
-        visitor.whole(&mut self.samples);
+        self.visit_state(visitor);
     }
 
     fn check_read(&mut self) -> bool {
@@ -173,6 +169,15 @@ where
     T: Kernels,
     Size<N>: Packed<T>,
 {
+    /// Shows every number of the state to `visitor`.
+    pub(super) fn visit_state(&mut self, visitor: &mut dyn Visitor<T>) {
+        visitor.reals(self.triangle.as_mut());
+        visitor.reals(&mut self.diagonal);
+        visitor.reals(core::slice::from_mut(&mut self.bound));
+        visitor.reals(&mut self.theta);
+        visitor.whole(&mut self.samples);
+    }
+
     /// [`save`]
     ///
     /// # Errors

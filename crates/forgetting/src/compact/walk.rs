@@ -18,19 +18,12 @@ pub struct Walk<M: Memory> {
     bound: Option<M::Real>,
 }
 
-impl<M: Memory> Forgetting<M> for Walk<M> {
-    type State = ();
-
-    fn configure(values: &dyn Values, _: M) -> Result<Self, Error> {
-        let process_noise: M::Real = PROCESS_NOISE.number(values)?;
-        if cycle::is_cyclic(&SCHEDULE, values)? {
-            let reason = "a compact estimator adds its process noise at every sample";
-            return Err(Error::Unsupported { reason });
-        }
-        let bound: Option<M::Real> = match values.get(BOUND.name) {
-            None => None,
-            Some(_) => Some(BOUND.number(values)?),
-        };
+impl<M: Memory> Walk<M> {
+    /// Of this process noise, P staying below `bound`, if there is one.
+    ///
+    /// # Errors
+    /// [`Error::Value`] names the bound unless it is above the process noise and in range.
+    pub(super) fn new(process_noise: M::Real, bound: Option<M::Real>) -> Result<Self, Error> {
         match bound {
             Some(bound) if !(bound > process_noise && bound <= M::Real::CEILING) => {
                 let allowed = "above process_noise, within the number type's range";
@@ -38,6 +31,23 @@ impl<M: Memory> Forgetting<M> for Walk<M> {
             }
             bound => Ok(Self { process_noise, bound }),
         }
+    }
+}
+
+impl<M: Memory> Forgetting<M> for Walk<M> {
+    type State = ();
+
+    fn configure(values: &dyn Values, _: M) -> Result<Self, Error> {
+        let process_noise = PROCESS_NOISE.number(values)?;
+        if cycle::is_cyclic(&SCHEDULE, values)? {
+            let reason = "a compact estimator adds its process noise at every sample";
+            return Err(Error::Unsupported { reason });
+        }
+        let bound = match values.get(BOUND.name) {
+            None => None,
+            Some(_) => Some(BOUND.number(values)?),
+        };
+        Self::new(process_noise, bound)
     }
 
     fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>)) {

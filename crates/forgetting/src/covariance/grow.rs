@@ -77,44 +77,6 @@ impl<M: Memory> Factor<M> {
         }
     }
 
-    /// P ← S·P·S with S = diag(`scale`), each > 0: U ← S U S⁻¹, D ← S D S. O(n²).
-    ///
-    /// Call [`Factor::reserve`] with the largest squared scale first.
-    pub fn scale_each(&mut self, scale: &[M::Real]) {
-        for (j, &s) in scale.iter().enumerate() {
-            for (i, &t) in scale[..j].iter().enumerate() {
-                let u = &mut self.columns.as_mut()[layout::place::<M::Real>(i, j)];
-                *u = *u * t / s;
-            }
-            self.put_diagonal(j, self.diagonal.as_ref()[j] * s * s);
-        }
-    }
-
-    /// P ← S·P·S with S = diag(`ratios`), each > 0. O(n²).
-    ///
-    /// # Errors
-    /// [`Error::Range`] when P would leave the range of the number type; P is as it was.
-    pub(crate) fn change_units(&mut self, ratios: &[M::Real]) -> Result<(), Error> {
-        let largest = ratios.iter().fold(M::Real::ZERO, |largest, &r| largest.max(r));
-        self.tighten();
-        self.reserve((largest * largest).max(M::Real::ONE), M::Real::ZERO)?;
-        self.scale_each(ratios);
-        self.tighten();
-        Ok(())
-    }
-
-    /// P ← S·P·S with S = diag(`scale`), to be read and not to be gone on with: it may leave the range.
-    pub(crate) fn express(&mut self, scale: &[M::Real]) {
-        for (j, &s) in scale.iter().enumerate() {
-            for (i, &t) in scale[..j].iter().enumerate() {
-                let u = &mut self.columns.as_mut()[layout::place::<M::Real>(i, j)];
-                *u = *u * t / s;
-            }
-            let d = &mut self.diagonal.as_mut()[j];
-            *d = *d * s * s;
-        }
-    }
-
     /// Makes room for P to become at most `growth`·P plus a matrix of trace `added`.
     ///
     /// The bound on P's trace costs O(1) to keep; only when it nears the limit is the trace

@@ -11,12 +11,13 @@ mod grow;
 mod measure;
 mod prior;
 pub mod spectrum;
+mod units;
 
-#[cfg(feature = "alloc")]
 #[cfg(feature = "alloc")]
 pub use bounded::bounded;
 pub use bounded::{bounded_in, bounded_room};
 pub use prior::{Prior, DIFFUSE};
+pub(crate) use units::{scale_each, Above};
 
 use crate::error::Error;
 use crate::memory::state::Visitor;
@@ -27,6 +28,7 @@ use forgetting_kernels::kernel::layout;
 use forgetting_kernels::kernel::variances::Variances;
 use forgetting_kernels::Kernels;
 use forgetting_kernels::Real;
+use units::{put_diagonal, Tiles};
 
 /// P = U D Uᵀ, n x n and positive definite.
 #[derive(Clone, Debug)]
@@ -202,20 +204,10 @@ impl<M: Memory> Factor<M> {
         M::Real::variances(Variances { columns, diagonal, variances });
     }
 
-    /// D_j ← `d`, or the floor where that is below it.
-    ///
-    /// A column of U may be as long as D is small. At the floor it becomes √(d/floor) of what it was,
-    /// so that it adds to P no more than it did: lifting D alone would add the floor times the
-    /// square of its length.
+    /// D_j ← `d`, or the floor where that is below it, and column j of U with it.
     pub(crate) fn put_diagonal(&mut self, j: usize, d: M::Real) {
-        let floor = M::Real::FLOOR;
-        self.diagonal.as_mut()[j] = d.max(floor);
-        if d < floor {
-            let share = (d / floor).sqrt();
-            for i in 0..j {
-                self.columns.as_mut()[layout::place::<M::Real>(i, j)] *= share;
-            }
-        }
+        let (mut u, place) = (Tiles(self.columns.as_mut()), &mut self.diagonal.as_mut()[j]);
+        put_diagonal(&mut u, place, j, d);
     }
 
     /// By how much the trace may grow after room was reserved for P/λ.

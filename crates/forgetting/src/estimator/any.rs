@@ -53,6 +53,13 @@ impl<M: Memory> Named<M> {
         self.recursion.design.estimates_noise
     }
 
+    /// Goes on in other units, for which there must be room: θ ← S θ and P ← S P S with
+    /// S = diag(`ratios`).
+    pub(crate) fn change_units(&mut self, ratios: &[M::Real]) {
+        let changed = self.recursion.change_units(ratios);
+        debug_assert!(changed.is_ok(), "there is room");
+    }
+
     /// [`Estimator::is_sound`] for a state read from bytes; repairs its bound on P's trace if that
     /// is not one.
     pub(crate) fn check_read(&mut self) -> bool {
@@ -79,12 +86,5 @@ impl<T: Kernels> AnyEstimator<T> {
     /// The element of D beyond which P counts as wound up, where no monitor says so.
     pub(crate) fn windup_limit(&self) -> T {
         self.recursion.design.windup_limit
-    }
-
-    /// Goes on in other units, for which there must be room: θ ← S θ and P ← S P S with
-    /// S = diag(`ratios`).
-    pub(crate) fn change_units(&mut self, ratios: &[T]) {
-        let changed = self.recursion.change_units(ratios);
-        debug_assert!(changed.is_ok(), "there is room");
     }
 }

@@ -87,6 +87,8 @@ impl<M: Memory> Mixer<M> for Mlpol<M> {
         }
     }
 
+    // always, so that it is compiled for the number of members that whoever calls it has
+    #[inline(always)]
     fn learn(&self, state: &mut Regrets<M>, forecasts: &Forecasts<'_, M::Real>) {
         state.widen(forecasts);
         if state.unit == M::Real::ZERO {
@@ -121,6 +123,7 @@ impl<M: Memory> Mixer<M> for Mlpol<M> {
 
 impl<M: Memory> Regrets<M> {
     /// Makes the unit the largest error so far.
+    #[inline(always)]
     fn widen(&mut self, forecasts: &Forecasts<'_, M::Real>) {
         let width = forecasts.mixed.len();
         let mut unit = self.unit;

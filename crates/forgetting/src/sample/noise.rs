@@ -20,15 +20,12 @@ pub enum Noise<'a, T> {
 
 impl<T: Real> Noise<'_, T> {
     /// The standard deviation of the noise, a typical one of several rows; 1 where Γ is not one.
+    #[inline]
     pub(crate) fn deviation(&self) -> T {
         let variance = match *self {
             Self::Unit => return T::ONE,
             Self::Scalar(gamma) => gamma,
-            Self::Full(gamma) => {
-                let rows = gamma.len().isqrt();
-                let diagonal = gamma.iter().step_by(rows + 1);
-                diagonal.fold(T::ZERO, |sum, &x| sum + x) / T::from_f64(rows as f64)
-            }
+            Self::Full(gamma) => mean_variance(gamma),
         };
         let deviation = variance.sqrt();
         if deviation > T::ZERO && deviation.is_finite() {
@@ -37,6 +34,13 @@ impl<T: Real> Noise<'_, T> {
             T::ONE
         }
     }
+}
+
+/// The mean of the diagonal of Γ.
+fn mean_variance<T: Real>(gamma: &[T]) -> T {
+    let rows = gamma.len().isqrt();
+    let diagonal = gamma.iter().step_by(rows + 1);
+    diagonal.fold(T::ZERO, |sum, &x| sum + x) / T::from_f64(rows as f64)
 }
 
 /// Refuses what is not a variance.

@@ -12,15 +12,120 @@
 //! | check | CRC-32 of all before it |
 
 use super::read::Reader;
-use super::write::{header, Output};
-use super::{unaltered, AnyEstimator, Error, Vec, MARK_OF_BANK as MARK};
-use crate::bank::Bank;
-use crate::memory::Dynamic;
-use crate::mixers::{AnyMixer, Mixer};
+use super::write::Output;
+use super::{unaltered, Error, Named, MARK_OF_BANK as MARK};
+use crate::bank::{Member, Members, Mixed};
+use crate::choice::Values;
+use crate::memory::Memory;
+use crate::mixers::Mixer;
 use forgetting_kernels::Kernels;
+#[cfg(feature = "alloc")]
+use {super::write::header, crate::bank::Bank, crate::mixers::AnyMixer, alloc::vec::Vec};
 
 const VERSION: u8 = 1;
 
+/// A member that is saved as an estimator.
+pub trait SavedMember<M: Memory>: Member<M> {
+    /// Gives its bytes to `put`, piece by piece; returns how many they are. Nothing of it changes.
+    ///
+    /// # Errors
+    /// Those of [`Named::save`].
+    fn save(&mut self, put: &mut dyn FnMut(&[u8])) -> Result<usize, Error>;
+
+    /// The member that was saved as these bytes.
+    ///
+    /// # Errors
+    /// [`Error::State`] says what is wrong with them.
+    fn from_bytes(bytes: &[u8]) -> Result<Self, Error>;
+}
+
+impl<M: Memory> SavedMember<M> for Named<M> {
+    fn save(&mut self, put: &mut dyn FnMut(&[u8])) -> Result<usize, Error> {
+        self.save(put)
+    }
+
+    fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
+        Self::from_bytes(bytes)
+    }
+}
+
+impl<T, G, X> Mixed<G, X>
+where
+    T: Kernels,
+    G: Members<Real = T, Member: SavedMember<G::Memory>>,
+    X: Mixer<G::Weighed>,
+{
+    /// Gives the bank, of which the mixer is the one `called` so, as bytes to `put`, piece by piece;
+    /// returns how many they are. Nothing of the bank changes, but for where its members are.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] when a part of it is a function of the user's.
+    pub(crate) fn save_as(
+        &mut self,
+        called: &str,
+        put: &mut dyn FnMut(&[u8]),
+    ) -> Result<usize, Error> {
+        let mut count = 0;
+        let mut counted = |bytes: &[u8]| {
+            count += bytes.len();
+            put(bytes);
+        };
+        let mut output = Output::new(&mut counted);
+        output.bytes(MARK);
+        output.bytes(&[VERSION, T::BYTES as u8, u8::from(self.follows_data())]);
+        let members = self.each();
+        output.bytes(&(members.len() as u16).to_le_bytes());
+        for member in members {
+            let length = member.save(&mut |_| {})?;
+            output.bytes(&(length as u32).to_le_bytes());
+            member.save(&mut |piece| output.bytes(piece))?;
+        }
+        write_mixer(self.mixer(), called, &mut output)?;
+        self.visit_own(&mut output);
+        output.finish();
+        Ok(count)
+    }
+
+    /// The bank that was saved as these bytes; `mix` makes the mixer of this name.
+    ///
+    /// # Errors
+    /// [`Error::State`] says what is wrong with the bytes, others what cannot be a bank of this kind.
+    pub(crate) fn read(
+        bytes: &[u8],
+        mix: impl FnOnce(&str, &dyn Values, G::Weighed) -> Result<X, Error>,
+    ) -> Result<Self, Error> {
+        let mut reader = Reader::new(checked(bytes)?.get(MARK.len() + 1..).unwrap_or_default());
+        if usize::from(reader.byte()?) != T::BYTES {
+            return Err(Error::State { reason: "it holds numbers of another type" });
+        }
+        let follows_data = reader.byte()? == 1;
+        let count = reader.count()?;
+        let members = G::gather(count, || {
+            let length = reader.size()?;
+            G::Member::from_bytes(reader.take(length)?)
+        })?;
+        let (name, parameters) = reader.choice()?;
+        let mixer = mix(name, &parameters, members.weighed())?;
+        let mut bank = Self::of_members(members, mixer, follows_data);
+        bank.visit_own(&mut reader);
+        reader.finish()?;
+        if bank.is_sound() {
+            Ok(bank)
+        } else {
+            Err(Error::State { reason: "its numbers are not those of a bank" })
+        }
+    }
+}
+
+fn write_mixer<M: Memory, X: Mixer<M>>(
+    mixer: &X,
+    called: &str,
+    output: &mut Output<'_>,
+) -> Result<(), Error> {
+    output.choice(called, &|each| mixer.describe(&mut |name, value| each(name, value)))
+}
+
+#[cfg(feature = "alloc")]
 impl<T: Kernels> Bank<T> {
     /// The bank, configuration and state, as bytes.
     ///
@@ -28,20 +133,8 @@ impl<T: Kernels> Bank<T> {
     /// [`Error::Unsupported`] when a part of it is a function of the user's.
     pub fn to_bytes(&self) -> Result<Vec<u8>, Error> {
         let mut bytes = Vec::new();
-        let mut keep = |piece: &[u8]| bytes.extend_from_slice(piece);
-        let mut output = Output::new(&mut keep);
-        output.bytes(MARK);
-        output.bytes(&[VERSION, T::BYTES as u8, u8::from(self.follows_data())]);
-        let members = self.members();
-        output.bytes(&(members.len() as u16).to_le_bytes());
-        for member in members.iter() {
-            let member = member.to_bytes()?;
-            output.bytes(&(member.len() as u32).to_le_bytes());
-            output.bytes(&member);
-        }
-        self.write_mixer(&mut output)?;
-        self.clone().visit_own(&mut output);
-        output.finish();
+        let called = self.mixer().called();
+        self.clone().save_as(called, &mut |piece| bytes.extend_from_slice(piece))?;
         Ok(bytes)
     }
 
@@ -58,15 +151,8 @@ impl<T: Kernels> Bank<T> {
             header(&mut output, member)?;
             member.prior().clone().visit(&mut output);
         }
-        self.write_mixer(&mut output)?;
+        write_mixer(self.mixer(), self.mixer().called(), &mut output)?;
         Ok(bytes)
-    }
-
-    fn write_mixer(&self, output: &mut Output<'_>) -> Result<(), Error> {
-        let mixer = self.mixer();
-        output.choice(mixer.called(), &|each| {
-            mixer.describe(&mut |name, value| each(name, value));
-        })
     }
 
     /// The bank that [`Bank::to_bytes`] saved.
@@ -74,29 +160,7 @@ impl<T: Kernels> Bank<T> {
     /// # Errors
     /// [`Error::State`] says what is wrong with the bytes.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
-        let mut reader = Reader::new(&checked(bytes)?[MARK.len() + 1..]);
-        if usize::from(reader.byte()?) != T::BYTES {
-            return Err(Error::State { reason: "it holds numbers of another type" });
-        }
-        let follows_data = reader.byte()? == 1;
-        let count = reader.count()?;
-        let mut members = Vec::new();
-        for _ in 0..count {
-            let length = reader.size()?;
-            members.push(AnyEstimator::<T>::from_bytes(reader.take(length)?)?);
-        }
-        let (name, parameters) = reader.choice()?;
-        let mixer = AnyMixer::named(name, &parameters, Dynamic::new(count, 1, 1)?)?;
-        // a new bank starts its members: they are put back
-        let mut bank = Self::with_units(members.clone(), mixer, follows_data)?;
-        bank.put_members(members);
-        bank.visit_own(&mut reader);
-        reader.finish()?;
-        if bank.is_sound() {
-            Ok(bank)
-        } else {
-            Err(Error::State { reason: "its numbers are not those of a bank" })
-        }
+        Self::read(bytes, AnyMixer::named)
     }
 }
 

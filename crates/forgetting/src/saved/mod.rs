@@ -30,7 +30,6 @@ use forgetting_kernels::Real;
 #[cfg(feature = "alloc")]
 use {alloc::vec::Vec, forgetting_kernels::Kernels};
 
-#[cfg(feature = "alloc")]
 mod bank;
 #[cfg(feature = "alloc")]
 mod model;
@@ -44,7 +43,7 @@ pub(crate) use write::Output;
 
 #[cfg(feature = "alloc")]
 pub use crate::estimator::AnyEstimator;
-#[cfg(feature = "alloc")]
+pub(crate) use bank::SavedMember;
 pub use bank::{bank_number_type, is_bank};
 
 /// The version of the format that is written, and the latest that is read.

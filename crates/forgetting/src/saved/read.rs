@@ -57,7 +57,6 @@ impl<'a> Reader<'a> {
         self.array().map(|bytes| u32::from_le_bytes(bytes) as usize)
     }
 
-    #[cfg(feature = "alloc")]
     pub fn count(&mut self) -> Result<usize, Error> {
         self.array().map(|bytes| usize::from(u16::from_le_bytes(bytes)))
     }
