@@ -67,8 +67,9 @@ rust:
 	cargo test --workspace --exclude forgetting-py --exclude forgetting-wasm --profile $(PROFILE) --quiet
 	cargo test --package forgetting --features serde --test serde --profile $(PROFILE) --quiet
 
+# one thread of BLAS for each process: as many as there are cores in each only wait for one another
 python: build
-	$(WITH_RECORDS) $(BIN)/pytest -n auto --dist worksteal
+	OPENBLAS_NUM_THREADS=1 $(WITH_RECORDS) $(BIN)/pytest -n auto --dist worksteal
 
 build: $(VENV)/ready
 	$(DEVELOP) --profile $(PROFILE)

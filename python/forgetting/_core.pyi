@@ -1,7 +1,7 @@
 """The core in Rust: estimators, what they return, and the registries of what they are made of."""
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Literal, final
+from typing import Any, ClassVar, Literal, final
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
@@ -84,6 +84,7 @@ class Evidence:
 
 @final
 class Run:
+    _outputs: ClassVar[list[str]]
     @property
     def theta(self) -> NDArray[Any] | None: ...
     @property

@@ -67,6 +67,7 @@ LAYERS: dict[str, tuple[str, ...]] = {
         "bounds callable",
         "choice",
         "settings registry run update bank_update shared time",
+        "samples",
         "window",
         "intervals",
         "rls bank",

@@ -28,7 +28,7 @@ class Cost:
         self.hessian = (self.hessian - forgotten).mid()
         self.right = (self.right - forgotten * theta).mid()
         if sample is not None:
-            self.hessian = (self.hessian + sample.information()).mid()
+            self.hessian = (self.hessian + sample.information).mid()
             self.right = (self.right + sample.evidence(sample.y)).mid()
         self.terms.append((sample, forgotten, theta))
 

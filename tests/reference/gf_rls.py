@@ -9,6 +9,7 @@ with R = P^-1. ``theta`` is n x targets (every column has the same phi, Gamma an
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 from .linalg import Matrix, cholesky, inverse, symmetric, transpose
 
@@ -21,13 +22,19 @@ class Measurement:
     y: Matrix
     gamma: Matrix
 
+    @cached_property
+    def weighted(self) -> Matrix:
+        """phi^T Gamma^-1."""
+        return transpose(self.phi) * inverse(self.gamma)
+
+    @cached_property
     def information(self) -> Matrix:
         """phi^T Gamma^-1 phi."""
-        return transpose(self.phi) * inverse(self.gamma) * self.phi
+        return self.weighted * self.phi
 
     def evidence(self, value: Matrix) -> Matrix:
         """phi^T Gamma^-1 value, for a p x targets ``value``."""
-        return transpose(self.phi) * inverse(self.gamma) * value
+        return self.weighted * value
 
 
 def theorem_1(
@@ -39,7 +46,7 @@ def theorem_1(
     """
     kept = symmetric(information - forgotten)
     cholesky(kept)
-    after = symmetric(kept + sample.information())
+    after = symmetric(kept + sample.information)
     covariance = symmetric(inverse(after))
     gain = covariance * sample.evidence(sample.y - sample.phi * theta)
     return after, covariance, (theta + gain).mid()

@@ -16,6 +16,7 @@ mod prediction;
 mod registry;
 mod rls;
 mod run;
+mod samples;
 mod settings;
 mod shared;
 mod time;

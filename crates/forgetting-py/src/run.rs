@@ -4,6 +4,35 @@ use crate::arrays::optional;
 use crate::pickle::{reduce, Reduced};
 use pyo3::prelude::*;
 
+/// Declares the class with an attribute for each output, so that their names stand once.
+macro_rules! outputs {
+    ($(#[$about:meta])* pub struct $Run:ident { $($name:ident,)* }) => {
+        $(#[$about])*
+        pub struct $Run {
+            $($name: Option<Py<PyAny>>,)*
+            samples: usize,
+            used: usize,
+            skipped_count: usize,
+            reweighted: bool,
+        }
+
+        /// The outputs, as the attributes are called.
+        const OUTPUTS: &[&str] = &[$(stringify!($name)),*];
+
+        impl $Run {
+            /// With the output that `take` has for each name.
+            fn of(
+                mut take: impl FnMut(&str) -> PyResult<Option<Py<PyAny>>>,
+                (samples, used, reweighted): (usize, usize, bool),
+            ) -> PyResult<Self> {
+                $(let $name = take(stringify!($name))?;)*
+                Ok(Self { $($name,)* samples, used, skipped_count: samples - used, reweighted })
+            }
+        }
+    };
+}
+
+outputs! {
 /// Results of `RLS.run` and `Bank.run`, one entry a sample; an output that was not asked for is None.
 ///
 /// Attributes
@@ -46,81 +75,45 @@ use pyo3::prelude::*;
 ///     Number of samples in the record, used, and left out.
 #[pyclass(frozen, get_all, module = "forgetting")]
 pub struct Run {
-    theta: Option<Py<PyAny>>,
-    error: Option<Py<PyAny>>,
-    leverage: Option<Py<PyAny>>,
-    forgetting_factor: Option<Py<PyAny>>,
-    rank: Option<Py<PyAny>>,
-    skipped: Option<Py<PyAny>>,
-    gate: Option<Py<PyAny>>,
-    windup: Option<Py<PyAny>>,
-    whitened_innovation: Option<Py<PyAny>>,
-    variance: Option<Py<PyAny>>,
-    covariance: Option<Py<PyAny>>,
-    prior_covariance: Option<Py<PyAny>>,
-    weight: Option<Py<PyAny>>,
-    weights: Option<Py<PyAny>>,
-    memory: Option<Py<PyAny>>,
-    samples: usize,
-    used: usize,
-    skipped_count: usize,
-    reweighted: bool,
+    theta,
+    error,
+    leverage,
+    forgetting_factor,
+    rank,
+    skipped,
+    gate,
+    windup,
+    whitened_innovation,
+    variance,
+    covariance,
+    prior_covariance,
+    weight,
+    weights,
+    memory,
+}
 }
 
 impl Run {
     /// From the results of the run time.
     pub fn new(py: Python<'_>, mut run: forgetting_runtime::Run) -> PyResult<Self> {
-        let mut take = |name| optional(py, run.take(name));
-        Ok(Self {
-            theta: take("theta")?,
-            error: take("error")?,
-            leverage: take("leverage")?,
-            forgetting_factor: take("forgetting_factor")?,
-            rank: take("rank")?,
-            skipped: take("skipped")?,
-            gate: take("gate")?,
-            windup: take("windup")?,
-            whitened_innovation: take("whitened_innovation")?,
-            variance: take("variance")?,
-            covariance: take("covariance")?,
-            prior_covariance: take("prior_covariance")?,
-            weight: take("weight")?,
-            weights: take("weights")?,
-            memory: take("memory")?,
-            samples: run.samples,
-            used: run.used,
-            skipped_count: run.samples - run.used,
-            reweighted: run.reweighted,
-        })
+        let counts = (run.samples, run.used, run.reweighted);
+        Self::of(|name| optional(py, run.take(name)), counts)
     }
 }
 
-/// The outputs, as the attributes are called.
-const OUTPUTS: [&str; 15] = [
-    "theta",
-    "error",
-    "leverage",
-    "forgetting_factor",
-    "rank",
-    "skipped",
-    "gate",
-    "windup",
-    "whitened_innovation",
-    "variance",
-    "covariance",
-    "prior_covariance",
-    "weight",
-    "weights",
-    "memory",
-];
-
 #[pymethods]
 impl Run {
+    /// Names of all outputs.
+    #[classattr]
+    fn _outputs() -> Vec<&'static str> {
+        OUTPUTS.to_vec()
+    }
+
     fn __repr__(slf: &Bound<'_, Self>) -> PyResult<String> {
         let Self { samples, used, .. } = slf.get();
         let mut kept = Vec::new();
         for name in OUTPUTS {
-            let output = slf.getattr(name)?;
+            let output = slf.getattr(*name)?;
             if !output.is_none() {
                 kept.push(format!("{name} {}", output.getattr("shape")?));
             }
@@ -129,7 +122,7 @@ impl Run {
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-        let (make, outputs) = reduce(slf, &OUTPUTS)?;
+        let (make, outputs) = reduce(slf, OUTPUTS)?;
         let Self { samples, used, reweighted, .. } = slf.get();
         let values = (outputs, *samples, *used, *reweighted).into_pyobject(slf.py())?;
         Ok((make, values))
@@ -137,33 +130,12 @@ impl Run {
 
     #[staticmethod]
     fn _of(
-        outputs: [Option<Py<PyAny>>; 15],
+        outputs: [Option<Py<PyAny>>; OUTPUTS.len()],
         samples: usize,
         used: usize,
         reweighted: bool,
-    ) -> Self {
-        let [theta, error, leverage, forgetting_factor, rank, skipped, gate, windup, whitened_innovation, variance, covariance, prior_covariance, weight, weights, memory] =
-            outputs;
-        Self {
-            theta,
-            error,
-            leverage,
-            forgetting_factor,
-            rank,
-            skipped,
-            gate,
-            windup,
-            whitened_innovation,
-            variance,
-            covariance,
-            prior_covariance,
-            weight,
-            weights,
-            memory,
-            samples,
-            used,
-            skipped_count: samples - used,
-            reweighted,
-        }
+    ) -> PyResult<Self> {
+        let mut outputs = outputs.into_iter();
+        Self::of(|_| Ok(outputs.next().flatten()), (samples, used, reweighted))
     }
 }

@@ -44,9 +44,9 @@ pub fn read_times<'py>(time: Option<&Bound<'py, PyAny>>) -> PyResult<Option<Boun
 /// # Errors
 /// `InvalidInput` names `time` when its values are not numbers.
 pub fn times_input<'a, 'py>(
-    time: &'a Option<Bound<'py, PyAny>>,
+    time: Option<&'a Bound<'py, PyAny>>,
 ) -> PyResult<Option<Input<'a, 'py>>> {
-    time.as_ref().map(|time| Input::read("time", time, NumberType::F64)).transpose()
+    time.map(|time| Input::read("time", time, NumberType::F64)).transpose()
 }
 
 /// Durations of NumPy in seconds.

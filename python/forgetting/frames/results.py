@@ -22,22 +22,7 @@ ERRORS = ("error", "whitened_innovation")
 SQUARE = ("covariance", "prior_covariance")
 """Outputs that are a matrix a sample, for which a table has no place."""
 
-OUTPUTS = (
-    "theta",
-    "error",
-    "leverage",
-    "forgetting_factor",
-    "rank",
-    "skipped",
-    "gate",
-    "windup",
-    "whitened_innovation",
-    "variance",
-    "weight",
-    "weights",
-    "memory",
-    *SQUARE,
-)
+OUTPUTS = sorted(Run._outputs, key=lambda name: name in SQUARE)
 """Attributes of a run that are one entry a sample, in the order of the columns."""
 
 

@@ -7,6 +7,7 @@ import re
 
 from markupsafe import Markup
 from matplotlib import pyplot as plt
+from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
 from forgetting.plot.style import (
@@ -53,8 +54,11 @@ def inline(figure: Figure, description: str) -> Markup:
     description : str
         What the picture shows, for those who cannot see it.
     """
+    for patch in (figure.patch, *(axes.patch for axes in figure.axes)):
+        patch.set_visible(False)
     stream = io.StringIO()
-    figure.savefig(stream, format="svg", transparent=True, metadata={"Date": None})
+    # `savefig` draws twice, once to lay out and once to write; an SVG is laid out as it is written
+    FigureCanvasSVG(figure).print_svg(stream, metadata={"Date": None})  # type: ignore[no-untyped-call]
     plt.close(figure)
     return Markup(themed(stream.getvalue(), description))
 

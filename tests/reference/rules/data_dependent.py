@@ -32,6 +32,8 @@ from .form import PublishedForm
 
 RATED = False
 BISECTIONS = 250
+STILL = Real(2) ** -240
+"""Of the largest weight: a step that is shorter is of rounding alone."""
 
 
 class Dense(Rule):
@@ -144,15 +146,18 @@ def _matrix_root(margin: Real, spread: Matrix, error: Matrix, limit: Real) -> Re
     at_low, at_high = slope(low), slope(high)
     if at_high <= 0:
         return limit
+    mu, moved = low, 0
     for _ in range(BISECTIONS):
-        mu = ((low * at_high - high * at_low) / (at_high - at_low)).mid()
+        before, mu = mu, ((low * at_high - high * at_low) / (at_high - at_low)).mid()
         value = slope(mu)
-        if abs(value) < Real(2) ** -240 * abs(margin):
+        if value == 0 or abs(mu - before) < STILL * limit:
             break
+        # an end that stays twice counts half, so that it is left at last
         if value > 0:
-            high, at_high, at_low = mu, value, at_low / 2
+            high, at_high, at_low = mu, value, at_low / 2 if moved > 0 else at_low
         else:
-            low, at_low, at_high = mu, value, at_high / 2
+            low, at_low, at_high = mu, value, at_high / 2 if moved < 0 else at_high
+        moved = 1 if value > 0 else -1
     return mu
 
 

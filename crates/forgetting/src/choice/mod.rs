@@ -9,8 +9,10 @@ pub mod guarantee;
 pub mod parameter;
 mod range;
 pub(crate) mod registry;
+mod value;
 
 pub use about::{About, Axis};
 pub use guarantee::{Bounds, Claim, Constants, Guarantee, Guarantees, Input, Setting};
-pub use parameter::{Defaults, Kind, Parameter, Value, Values};
+pub use parameter::{Kind, Parameter};
 pub use range::Range;
+pub use value::{Defaults, Value, Values};
