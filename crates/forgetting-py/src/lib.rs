@@ -6,6 +6,7 @@ mod bank;
 mod bank_update;
 mod callable;
 mod choice;
+mod conversion;
 mod errors;
 mod fleet;
 mod intervals;
