@@ -142,6 +142,27 @@ def test_what_is_no_number_is_refused_everywhere(values: object, message: str) -
     assert est.to_bytes() == before
 
 
+class Interrupted:
+    """Values that Ctrl-C comes to while they are read."""
+
+    def __array__(self, *_: object, **__: object) -> np.ndarray:
+        raise KeyboardInterrupt
+
+
+def test_ctrl_c_while_numbers_are_read_is_no_bad_input() -> None:
+    est = fg.RLS(2)
+    before = est.to_bytes()
+    calls: list[Callable[[], object]] = [
+        lambda: est.update([1.0, 2.0], Interrupted()),
+        lambda: est.run(Interrupted(), [1.0]),
+        lambda: fg.Fleet(1, 2).update([[1.0, 2.0]], Interrupted()),
+    ]
+    for call in calls:
+        with pytest.raises(KeyboardInterrupt):
+            call()
+    assert est.to_bytes() == before
+
+
 @pytest.mark.parametrize("size", [2**31, 2**63, 2**64, 2**200, -(2**63) - 1])
 def test_a_size_that_no_machine_has_is_out_of_range_and_no_overflow(size: int) -> None:
     for name in ("parameters", "rows", "targets"):

@@ -63,6 +63,7 @@ LAYERS: dict[str, tuple[str, ...]] = {
     # what only Python needs
     "forgetting-py": (
         "errors",
+        "conversion",
         "arrays pickle prediction",
         "bounds callable",
         "choice",

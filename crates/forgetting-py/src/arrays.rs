@@ -1,10 +1,11 @@
 //! NumPy arrays as slices of numbers, without a copy where type and layout allow it.
 
-use crate::errors::{invalid, raise};
+use crate::conversion::{not_numbers, real_numbers};
+use crate::errors::raise;
 use forgetting_runtime::{Array, Elements, Innovation, NumberType, Numbers, View};
 use numpy::{
-    Element, IxDyn, PyArray, PyArrayDescr, PyArrayDescrMethods, PyArrayDyn, PyArrayMethods,
-    PyUntypedArray, PyUntypedArrayMethods,
+    Element, IxDyn, PyArray, PyArrayDescr, PyArrayDyn, PyArrayMethods, PyUntypedArray,
+    PyUntypedArrayMethods,
 };
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -179,36 +180,8 @@ fn contiguous<'py, T: Number>(
     let array = convert
         .bind(py)
         .call1((array, T::TYPE.name(), "CA"))
-        .map_err(|error| invalid(format!("{name} must hold numbers ({error})")))?;
+        .map_err(|error| not_numbers(py, name, error))?;
     Ok(array.cast_into::<PyArray<T, IxDyn>>()?)
-}
-
-/// `values` as an array that NumPy can convert without losing a part of them.
-///
-/// # Errors
-/// `InvalidInput` names the parameter: complex numbers would lose their imaginary part, a masked
-/// array its mask, dates their unit.
-fn real_numbers<'py>(
-    name: &str,
-    values: &Bound<'py, PyAny>,
-) -> PyResult<Bound<'py, PyUntypedArray>> {
-    let numpy = values.py().import("numpy")?;
-    let array = numpy
-        .call_method1("asanyarray", (values,))
-        .map_err(|error| invalid(format!("{name} must hold numbers ({error})")))?;
-    let array = array.cast_into::<PyUntypedArray>()?;
-    if array.is_instance(&numpy.getattr("ma")?.getattr("MaskedArray")?)? {
-        let instead = "put NaN where a value is missing";
-        return Err(invalid(format!("{name} must hold numbers, not a masked array: {instead}")));
-    }
-    let what = match array.dtype().kind() {
-        b'c' => "complex ones",
-        b'M' | b'm' => "dates or times",
-        b'S' | b'U' => "text",
-        b'V' => "records",
-        _ => return Ok(array),
-    };
-    Err(invalid(format!("{name} must hold numbers, not {what} ({})", array.dtype())))
 }
 
 /// `values` if it is an array of `T` as NumPy itself makes them, in C order: a few comparisons tell.

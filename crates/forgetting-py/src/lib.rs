@@ -7,6 +7,7 @@ mod bank_update;
 mod bounds;
 mod callable;
 mod choice;
+mod conversion;
 mod errors;
 mod fleet;
 mod intervals;
