@@ -6,6 +6,7 @@ use numpy::{
     Element, IxDyn, PyArray, PyArrayDescr, PyArrayDescrMethods, PyArrayDyn, PyArrayMethods,
     PyUntypedArray, PyUntypedArrayMethods,
 };
+use pyo3::exceptions::PyException;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyFloat;
@@ -179,8 +180,16 @@ fn contiguous<'py, T: Number>(
     let array = convert
         .bind(py)
         .call1((array, T::TYPE.name(), "CA"))
-        .map_err(|error| invalid(format!("{name} must hold numbers ({error})")))?;
+        .map_err(|error| no_numbers(py, name, error))?;
     Ok(array.cast_into::<PyArray<T, IxDyn>>()?)
+}
+
+/// What NumPy's `error` says of an argument; Ctrl-C, which may come while it reads, says nothing of it.
+fn no_numbers(py: Python<'_>, name: &str, error: PyErr) -> PyErr {
+    match error.is_instance_of::<PyException>(py) {
+        true => invalid(format!("{name} must hold numbers ({error})")),
+        false => error,
+    }
 }
 
 /// `values` as an array that NumPy can convert without losing a part of them.
@@ -195,7 +204,7 @@ fn real_numbers<'py>(
     let numpy = values.py().import("numpy")?;
     let array = numpy
         .call_method1("asanyarray", (values,))
-        .map_err(|error| invalid(format!("{name} must hold numbers ({error})")))?;
+        .map_err(|error| no_numbers(values.py(), name, error))?;
     let array = array.cast_into::<PyUntypedArray>()?;
     if array.is_instance(&numpy.getattr("ma")?.getattr("MaskedArray")?)? {
         let instead = "put NaN where a value is missing";

@@ -2,7 +2,7 @@
 
 use crate::arrays::{optional, output, Input};
 use crate::bank::Bank;
-use crate::errors::{invalid, raise};
+use crate::errors::{heed_signals, invalid, raise};
 use crate::pickle::{reduce, Reduced};
 use crate::rls::Rls;
 use crate::settings::{
@@ -215,13 +215,17 @@ impl Fleet {
         output(py, self.fleet.lock(py)?.covariance(index.0).map_err(raise)?)
     }
 
-    /// How far each estimate can be trusted now, in O(n) a stream, O(n^2) where it is a bank.
+    /// How far each estimate can be trusted now, in O(n) a stream, O(n^2) where it is a bank. Like
+    /// `update` it hears Ctrl-C.
     ///
     /// Returns
     /// -------
     /// FleetHealth
     fn health<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let health = self.fleet.lock(py)?.health();
+        let held = self.fleet.lock(py)?;
+        let fleet = &*held;
+        let health = py.detach(|| fleet.health(&mut heed_signals)).map_err(raise)?;
+        drop(held);
         let (largest, smallest) = (output(py, health.largest)?, output(py, health.smallest)?);
         let (windup, samples) = (output(py, health.windup)?, output(py, health.samples)?);
         let made = (self.dtype(), largest, smallest, windup, samples);
@@ -248,7 +252,8 @@ impl Fleet {
         output(py, py.detach(|| fleet.predict(phi)).map_err(raise)?)
     }
 
-    /// Take a sample of each stream, without holding the interpreter.
+    /// Take a sample of each stream, without holding the interpreter. Ctrl-C is heard within half a
+    /// second; the fleet is then as it was before, bit for bit.
     ///
     /// Parameters
     /// ----------
@@ -293,7 +298,7 @@ impl Fleet {
         let samples = (phi.view("phi")?, y.view("y")?, mask.as_deref());
         let (fleet, outputs) = (&mut *held, names(outputs.as_ref()));
         let update = py
-            .detach(|| fleet.update_after(elapsed, samples, outputs.as_deref()))
+            .detach(|| fleet.update_while(elapsed, samples, outputs.as_deref(), &mut heed_signals))
             .map_err(raise)?;
         Ok(FleetUpdate {
             error: optional(py, update.error)?,
@@ -364,9 +369,11 @@ impl Fleet {
 
     /// The fleet that has these states.
     #[staticmethod]
-    fn _of_states(fresh: &[u8], states: Vec<Bound<'_, PyBytes>>) -> PyResult<Self> {
+    fn _of_states(py: Python<'_>, fresh: &[u8], states: Vec<Bound<'_, PyBytes>>) -> PyResult<Self> {
         let states: Vec<&[u8]> = states.iter().map(|state| state.as_bytes()).collect();
-        forgetting_runtime::Fleet::from_states(fresh, &states).map(Self::of).map_err(raise)
+        py.detach(|| forgetting_runtime::Fleet::from_states(fresh, &states, &mut heed_signals))
+            .map(Self::of)
+            .map_err(raise)
     }
 
     /// A copy of the stream at `index`, as an `RLS` or a `Bank` that goes on from there.
