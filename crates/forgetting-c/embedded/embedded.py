@@ -171,7 +171,8 @@ def update_code(machine: Machine, program: Path) -> int:
     lines = run(machine.compiler + "nm", "-S", "-C", str(program)).splitlines()
     parts = [line.split(maxsplit=3) for line in lines if len(line.split(maxsplit=3)) == 4]
     words = ("fg_update_f32", "kind::update", "Compact", "compact::")
-    left_out = ("visit", "save", "load", "from_bytes", "covariance", "::of")
+    left_out = ("visit", "save", "saving", "load", "from_bytes", "covariance", "::of")
+    left_out += ("kind::init", "::new", "set_theta")
     return sum(
         int(size, 16)
         for _, size, kind, name in parts

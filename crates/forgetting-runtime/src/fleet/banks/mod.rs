@@ -145,7 +145,10 @@ impl<T: Number> Banks<T> {
 
     /// Shows every stream, one after the other.
     fn each(&self, mut show: impl FnMut(usize, &Bank<T>)) {
-        let Ok(()) = self.try_each(|i, bank| Ok::<(), Infallible>(show(i, bank)));
+        let Ok(()) = self.try_each(|i, bank| {
+            show(i, bank);
+            Ok::<(), Infallible>(())
+        });
     }
 
     /// The same, until that fails.
