@@ -182,8 +182,8 @@ def _behind_priors(phibar: Array) -> int:
     """The sample from which on the prior of every parameter is set, if it followed the data."""
     samples, _, n = phibar.shape
     speaks = (phibar != 0).any(axis=1)
-    first = speaks[:, speaks.any(axis=0)].argmax(axis=0).max(initial=0)
-    return max(min(int(first) + 1, samples - 2 * n), 1)
+    first = int(speaks[:, speaks.any(axis=0)].argmax(axis=0).max(initial=0))
+    return max(min(first + 1, samples - 2 * n), 1)
 
 
 def trajectory_of(
