@@ -172,6 +172,14 @@ CALLS = [
         "est.run(phi, phi[:, 0], outputs=())",
     ),
     ("est = fg.Fleet(100_000, 8)", "[est._states() for _ in range(100)]"),
+    (
+        "fleets = [fg.Fleet(300_000, 10) for _ in range(3)]; phi = np.random.randn(300_000, 10)",
+        "[fleet.update(phi, phi[:, 0]) for fleet in fleets]",
+    ),
+    (
+        "est = fg.Fleet(300_000, 8)",
+        "[est.health() for _ in range(20)]",
+    ),
 ]
 
 

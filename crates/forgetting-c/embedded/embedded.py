@@ -174,7 +174,8 @@ def update_code(machine: Machine, program: Path) -> int:
     lines = run(machine.compiler + "nm", "-S", "-C", str(program)).splitlines()
     parts = [line.split(maxsplit=3) for line in lines if len(line.split(maxsplit=3)) == 4]
     words = ("fg_update_f32", "kind::update", "Compact", "compact::", "bank::", "mixers::")
-    left_out = ("visit", "save", "load", "from_bytes", "read", "covariance", "::of", "is_sound")
+    left_out = ("visit", "save", "saving", "load", "from_bytes", "read", "covariance", "::of")
+    left_out += ("is_sound", "kind::init", "::new", "set_theta")
     return sum(
         int(size, 16)
         for _, size, kind, name in parts

@@ -77,7 +77,7 @@ fn streams_differ_in_factor_and_prior_as_estimators_do() {
                 assert_eq!(own.to_bytes().unwrap(), estimator.to_bytes().unwrap());
                 assert_eq!(fleet.covariance(i as i64).unwrap(), estimator.covariance().unwrap());
             }
-            let health = fleet.health();
+            let health = fleet.health(&mut || Ok(())).unwrap();
             let largest: Vec<_> = each.iter().map(|estimator| estimator.extremes().0).collect();
             assert_eq!(health.largest.elements.to_f64(), largest);
             assert_eq!(health.samples, fleet.samples());

@@ -128,7 +128,9 @@ fn windup_is_that_of_the_last_update() {
         let y = numbers(500 + step, 2);
         fleet.update((view(&phi, &[2, 2]), view(&y, &[2]), None), None).unwrap();
         let alone = bank.update(phi[..2].into(), y[..1].into(), None).unwrap();
-        let Elements::Bool(windup) = fleet.health().windup.elements else { panic!() };
+        let Elements::Bool(windup) = fleet.health(&mut || Ok(())).unwrap().windup.elements else {
+            panic!()
+        };
         assert_eq!(windup, [alone.windup, false]);
         seen[usize::from(alone.windup)] = true;
     }
@@ -143,7 +145,8 @@ fn health_bounds_the_eigenvalues() {
         let samples = (view(&phi, &[COUNT, 3]), view(&y, &[COUNT]), None);
         fleet.update(samples, None).unwrap();
     }
-    let (health, variance) = (fleet.health(), fleet.variance().elements.to_f64());
+    let (health, variance) =
+        (fleet.health(&mut || Ok(())).unwrap(), fleet.variance().elements.to_f64());
     for i in 0..COUNT {
         let own = &variance[3 * i..3 * i + 3];
         let most = own.iter().fold(own[0], |most, &p| most.max(p));
@@ -165,10 +168,12 @@ fn states_come_back_bit_for_bit_and_are_checked() {
     let states: Vec<_> = (0..COUNT as i64).map(|i| fleet.state(i).unwrap()).collect();
     let slices: Vec<_> = states.iter().map(Vec::as_slice).collect();
     let fresh = fleet.fresh_state().unwrap();
-    let mut restored = Fleet::from_states(&fresh, &slices).unwrap();
+    let mut restored = Fleet::from_states(&fresh, &slices, &mut || Ok(())).unwrap();
     follow(&mut restored, &mut banks, 3, None);
 
-    let refused = |states: &[&[u8]]| Fleet::from_states(&fresh, states).err().unwrap().to_string();
+    let refused = |states: &[&[u8]]| {
+        Fleet::from_states(&fresh, states, &mut || Ok(())).err().unwrap().to_string()
+    };
     let mut altered = states[1].clone();
     altered[100] ^= 1;
     assert!(refused(&[&states[0], &altered]).starts_with("stream 1: state: it is truncated or"));

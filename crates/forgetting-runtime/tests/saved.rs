@@ -60,7 +60,8 @@ fn a_fleet_goes_on_as_if_it_had_not_been_saved() {
         fleet.update(sample(), None).unwrap();
         let states: Vec<_> = (0..11).map(|i| fleet.state(i).unwrap()).collect();
         let slices: Vec<&[u8]> = states.iter().map(Vec::as_slice).collect();
-        let mut restored = Fleet::from_states(&fleet.fresh_state().unwrap(), &slices).unwrap();
+        let mut restored =
+            Fleet::from_states(&fleet.fresh_state().unwrap(), &slices, &mut || Ok(())).unwrap();
         assert_eq!(restored.number_type(), number_type);
         fleet.update(sample(), None).unwrap();
         restored.update(sample(), None).unwrap();
@@ -69,7 +70,9 @@ fn a_fleet_goes_on_as_if_it_had_not_been_saved() {
         for stream in 0..12 {
             assert_eq!(restored.state(stream).unwrap(), fleet.state(stream).unwrap());
         }
-        let error = Fleet::from_states(&states[0], &[&states[0], b"no state"]).err().unwrap();
+        let error = Fleet::from_states(&states[0], &[&states[0], b"no state"], &mut || Ok(()))
+            .err()
+            .unwrap();
         assert_eq!(error.to_string(), "stream 1: state: it is truncated");
     }
 }

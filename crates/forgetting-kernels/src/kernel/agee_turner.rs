@@ -21,7 +21,7 @@
 //! Computation 28, 1974, method C1; for the sum, R. Fletcher and M. J. D. Powell, *On the
 //! modification of LDLᵀ factorizations*, Mathematics of Computation 28, 1974.
 
-use super::layout::BLOCK;
+use super::layout::{place, BLOCK, COMPACT};
 use super::registers::Small;
 use super::tiles::{
     block_mut, eliminate, load_per_column, store_per_column, triangle, LongMut, Tile,
@@ -29,7 +29,7 @@ use super::tiles::{
 use crate::kernel::dispatch::Kernel;
 use crate::number::block_vector::BlockVector;
 use crate::number::vector::Vector;
-use crate::number::Real;
+use crate::number::{copy_first, copy_some, Real};
 
 /// The update; it uses up `x`.
 pub struct AgeeTurner<'a, T> {
@@ -55,6 +55,9 @@ impl<T: Real> Kernel<T> for AgeeTurner<'_, T> {
     fn run<V: Vector<T>, const GROUP: usize>(mut self) {
         let n = self.diagonal.len();
         if GROUP < 8 && n <= BLOCK {
+            if COMPACT {
+                return some(&mut self);
+            }
             return with_width!(n, few::<T>(&mut self));
         }
         let (mut x, mut t) = (LongMut::new(self.x), T::ONE / self.c);
@@ -169,4 +172,31 @@ fn few<T: Real, const N: usize>(task: &mut AgeeTurner<'_, T>) {
         }
     }
     small.store(columns, d);
+}
+
+/// The same for any number of them, where programs are to be small: past the last there is nothing to
+/// be done.
+fn some<T: Real>(task: &mut AgeeTurner<'_, T>) {
+    let AgeeTurner { columns, diagonal, x, c } = task;
+    let n = diagonal.len();
+    let [mut d, mut rest] = [[T::ONE; BLOCK], [T::ZERO; BLOCK]];
+    copy_some(&mut d, diagonal);
+    copy_some(&mut rest, x);
+    let mut u = [[T::ZERO; BLOCK]; BLOCK];
+    for (c, i) in (0..n).flat_map(|c| (0..c).map(move |i| (c, i))) {
+        u[c][i] = columns[place::<T>(i, c)];
+    }
+    let (_, Scalars { slope, less_s, kept }) = pass(&u, &mut d, &rest, T::ONE / *c);
+    let sum = loses_digits(&kept);
+    for c in (0..n).rev() {
+        for i in 0..c {
+            let (before, rest) = (u[c][i], x[i]);
+            x[i] = less_s[c].mul_add(before, rest);
+            columns[place::<T>(i, c)] = match sum {
+                true => slope[c].mul_add(rest, kept[c] * before),
+                false => slope[c].mul_add(x[i], before),
+            };
+        }
+    }
+    copy_first(diagonal, &d);
 }

@@ -1,6 +1,6 @@
 //! Products and solutions with U and Uᵀ, and f·P·fᵀ. O(n²/2) each.
 
-use super::layout::{BLOCK, FEW};
+use super::layout::{place, BLOCK, COMPACT, FEW};
 use super::registers::Small;
 use super::tiles::{
     add_columns, block, dots, load_per_column, store_per_column, triangle, Long, LongMut,
@@ -10,7 +10,7 @@ use crate::kernel::dispatch::Kernel;
 use crate::number::block_vector::BlockVector;
 use crate::number::lane::Lane;
 use crate::number::vector::Vector;
-use crate::number::Real;
+use crate::number::{copy_some, Real};
 
 /// f·P·fᵀ = Σ_j D_j (Uᵀfᵀ)_j²
 pub struct Leverage<'a, T> {
@@ -35,6 +35,9 @@ impl<T: Real> Kernel<T> for Leverage<'_, T> {
         let Self { columns, diagonal, f } = self;
         // wide vectors are for many: without this they would be compiled for few, too
         if GROUP < 8 && f.len() <= FEW {
+            if COMPACT {
+                return some_leverage(columns, diagonal, f);
+            }
             with_few!(f.len(), few_leverage::<T>(columns, diagonal, f))
         } else {
             leverage_of::<T, V, GROUP>(columns, diagonal, f)
@@ -66,6 +69,18 @@ fn few_leverage<T: Real, const N: usize>(columns: &[T], diagonal: &[T], f: &[T])
     }
 }
 
+/// The same for any number of them, where programs are to be small.
+fn some_leverage<T: Real>(columns: &[T], diagonal: &[T], f: &[T]) -> T {
+    let (n, mut padded, mut d) = (f.len(), [T::ZERO; FEW], [T::ZERO; FEW]);
+    copy_some(&mut padded, f);
+    copy_some(&mut d, diagonal);
+    let mut small = Small { u: [[T::ZERO; FEW]; FEW], d };
+    for (c, i) in (0..n).flat_map(|c| (0..c).map(move |i| (c, i))) {
+        small.u[c][i] = columns[place::<T>(i, c)];
+    }
+    small.leverage(&padded)
+}
+
 /// `x` ← Uᵀ·`x`
 pub struct MultiplyTransposed<'a, T> {
     /// U, in tiles
@@ -86,11 +101,23 @@ impl<T: Real> Kernel<T> for MultiplyTransposed<'_, T> {
     fn run<V: Vector<T>, const GROUP: usize>(self) {
         let Self { columns, x } = self;
         if GROUP < 8 && x.len() <= BLOCK {
+            if COMPACT {
+                return some_products(columns, x);
+            }
             return with_width!(x.len(), few_products::<T>(columns, x));
         }
         for b in (0..x.len().div_ceil(BLOCK)).rev() {
             let w = dots::<T, V, GROUP>(block(columns, b), &Long::new(x));
             store_per_column(x, b, w);
+        }
+    }
+}
+
+/// For any number of them, where programs are to be small.
+fn some_products<T: Real>(columns: &[T], x: &mut [T]) {
+    for c in (0..x.len()).rev() {
+        for i in 0..c {
+            x[c] = columns[place::<T>(i, c)].mul_add(x[i], x[c]);
         }
     }
 }
@@ -127,6 +154,9 @@ impl<T: Real> Kernel<T> for Solve<'_, T> {
     fn run<V: Vector<T>, const GROUP: usize>(self) {
         let Self { columns, x } = self;
         if GROUP < 8 && x.len() <= BLOCK {
+            if COMPACT {
+                return some_solutions(columns, x);
+            }
             return with_width!(x.len(), few_solutions::<T>(columns, x));
         }
         let blocks = x.len().div_ceil(BLOCK);
@@ -142,6 +172,16 @@ impl<T: Real> Kernel<T> for Solve<'_, T> {
             *x.per_column(b) = solved;
         }
         x.finish();
+    }
+}
+
+/// For any number of them, where programs are to be small.
+fn some_solutions<T: Real>(columns: &[T], x: &mut [T]) {
+    for c in (0..x.len()).rev() {
+        let less = -x[c];
+        for i in 0..c {
+            x[i] = less.mul_add(columns[place::<T>(i, c)], x[i]);
+        }
     }
 }
 
@@ -189,6 +229,9 @@ impl<T: Real> Kernel<T> for Multiply<'_, T> {
     fn run<V: Vector<T>, const GROUP: usize>(self) {
         let Self { columns, x } = self;
         if GROUP < 8 && x.len() <= BLOCK {
+            if COMPACT {
+                return some_sums(columns, x);
+            }
             return with_width!(x.len(), few_sums::<T>(columns, x));
         }
         let blocks = x.len().div_ceil(BLOCK);
@@ -199,6 +242,15 @@ impl<T: Real> Kernel<T> for Multiply<'_, T> {
             add_columns::<T, V>(block(columns, b), &mut x, &factors);
         }
         x.finish();
+    }
+}
+
+/// For any number of them, where programs are to be small.
+fn some_sums<T: Real>(columns: &[T], x: &mut [T]) {
+    for c in 0..x.len() {
+        for i in 0..c {
+            x[i] = x[c].mul_add(columns[place::<T>(i, c)], x[i]);
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Vectors of any length: products and sums.
 
 use super::copies::copy;
-use super::layout::FEW;
+use super::layout::{COMPACT, FEW};
 use crate::kernel::dispatch::Kernel;
 use crate::number::lane::Lane;
 use crate::number::vector::Vector;
@@ -110,6 +110,9 @@ impl<T: Real> Kernel<T> for Arrive<'_, T> {
         copy::<T, V>(self.phi, self.copy);
         // wide vectors are for many: without this they would be compiled for few, too
         if GROUP < 8 && self.phi.len() <= FEW {
+            if COMPACT {
+                return some(self.phi, self.theta);
+            }
             with_few!(self.phi.len(), few::<T>(self.phi, self.theta))
         } else {
             products::<T, V>(self.phi, self.theta)
@@ -147,6 +150,16 @@ fn few<T: Real, const N: usize>(phi: &[T], theta: &[T]) -> (T, T) {
         (Some(phi), Some(theta)) => few_products(phi, theta),
         _ => (T::ZERO, T::ZERO),
     }
+}
+
+/// The same of any number of them, where programs are to be small.
+fn some<T: Real>(phi: &[T], theta: &[T]) -> (T, T) {
+    let (mut product, mut square) = (T::ZERO, T::ZERO);
+    for (&phi, &theta) in phi.iter().zip(theta) {
+        product = phi.mul_add(theta, product);
+        square = phi.mul_add(phi, square);
+    }
+    (product, square)
 }
 
 /// φ·θ and φ·φ, of one stream or of one in each lane.

@@ -34,15 +34,15 @@ pub trait BlockVector<T: Real>: Lane<T> {
 }
 
 impl<T: Real> BlockVector<T> for Lanes<T, 8> {
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn read(numbers: &[T; 8]) -> Self {
         Self(*numbers)
     }
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn write(self, numbers: &mut [T; 8]) {
         *numbers = self.0;
     }
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn running_sums(self) -> Self {
         let [a, b, c, d, e, f, g, h] = self.0;
         // the first of each pair gets a zero in a register, which changes the sign of −0
@@ -51,32 +51,32 @@ impl<T: Real> BlockVector<T> for Lanes<T, 8> {
         let abcd = ab + cd;
         Self([a, ab, ab + c, abcd, abcd + e, abcd + ef, abcd + (ef + g), abcd + (ef + gh)])
     }
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn before(self, first: Self) -> Self {
         let [a, b, c, d, e, f, g, _] = self.0;
         Self([first.0[0], a, b, c, d, e, f, g])
     }
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn last(self) -> Self {
         Self([self.0[7]; 8])
     }
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn remaining_sums(self) -> Self {
         self.backwards().running_sums().backwards()
     }
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn after(self, last: Self) -> Self {
         let [_, b, c, d, e, f, g, h] = self.0;
         Self([b, c, d, e, f, g, h, last.0[0]])
     }
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn first(self) -> Self {
         Self([self.0[0]; 8])
     }
 }
 
 impl<T: Real> Lanes<T, 8> {
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn backwards(self) -> Self {
         let [a, b, c, d, e, f, g, h] = self.0;
         Self([h, g, f, e, d, c, b, a])

@@ -1,4 +1,7 @@
 //! A vector that needs no particular instructions.
+//!
+//! On WebAssembly, where programs are to be small, its operations are loops, and calls unless the compiler
+//! thinks otherwise: written out in every kernel they would be two thirds of the kernels' code.
 
 use crate::number::lane::Lane;
 use crate::number::Real;
@@ -12,7 +15,7 @@ macro_rules! lane_by_lane {
     ($($Trait:ident $method:ident;)*) => {$(
         impl<T: Real, const L: usize> $Trait for Lanes<T, L> {
             type Output = Self;
-            #[inline(always)]
+            #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
             fn $method(mut self, other: Self) -> Self {
                 for lane in 0..L {
                     self.0[lane] = self.0[lane].$method(other.0[lane]);
@@ -38,7 +41,7 @@ macro_rules! each {
 
 impl<T: Real, const L: usize> Neg for Lanes<T, L> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn neg(self) -> Self {
         Self(each!(L, i: T::ZERO, -self.0[i]))
     }
@@ -47,43 +50,43 @@ impl<T: Real, const L: usize> Neg for Lanes<T, L> {
 impl<T: Real, const L: usize> Lane<T> for Lanes<T, L> {
     type Mask = [bool; L];
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn splat(x: T) -> Self {
         Self([x; L])
     }
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn mul_add(self, factor: Self, term: Self) -> Self {
         Self(each!(L, i: T::ZERO, Real::mul_add(self.0[i], factor.0[i], term.0[i])))
     }
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn max(self, other: Self) -> Self {
         Self(each!(L, i: T::ZERO, Real::max(self.0[i], other.0[i])))
     }
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn min(self, other: Self) -> Self {
         Self(each!(L, i: T::ZERO, Real::min(self.0[i], other.0[i])))
     }
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn abs(self) -> Self {
         Self(each!(L, i: T::ZERO, Real::abs(self.0[i])))
     }
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn sqrt(self) -> Self {
         Self(each!(L, i: T::ZERO, Real::sqrt(self.0[i])))
     }
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn at_most(self, limit: Self) -> [bool; L] {
         each!(L, i: false, self.0[i] <= limit.0[i])
     }
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn less_than(self, limit: Self) -> [bool; L] {
         each!(L, i: false, self.0[i] < limit.0[i])
     }
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn both(a: [bool; L], b: [bool; L]) -> [bool; L] {
         each!(L, i: false, a[i] & b[i])
     }
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn all(mask: [bool; L]) -> bool {
         let mut all = true;
         for lane in mask {
@@ -91,7 +94,7 @@ impl<T: Real, const L: usize> Lane<T> for Lanes<T, L> {
         }
         all
     }
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn select(mask: [bool; L], yes: Self, no: Self) -> Self {
         Self(each!(L, i: T::ZERO, T::select(mask[i], yes.0[i], no.0[i])))
     }

@@ -50,7 +50,7 @@ impl<T: Real, const L: usize> Sums<T> for Lanes<T, L> {
     type Four = [T; 4];
     type BlockVector = Lanes<T, 8>;
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn sum(self) -> T {
         let mut lanes = self.0;
         let mut count = L;
@@ -62,15 +62,15 @@ impl<T: Real, const L: usize> Sums<T> for Lanes<T, L> {
         }
         (lanes[0] + lanes[1]) + (lanes[2] + lanes[3])
     }
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn four_sums([a, b, c, d]: [Self; 4]) -> [T; 4] {
         [a.sum(), b.sum(), c.sum(), d.sum()]
     }
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn numbers(four: [T; 4]) -> [T; 4] {
         four
     }
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn join([a, b, c, d]: [T; 4], [e, f, g, h]: [T; 4]) -> Lanes<T, 8> {
         Lanes([a, b, c, d, e, f, g, h])
     }

@@ -8,7 +8,7 @@ mod update;
 pub use update::FleetUpdate;
 
 use crate::arrays::{optional, output};
-use crate::errors::{invalid, raise};
+use crate::errors::{heed_signals, invalid, raise};
 use crate::settings::{read_choices, read_optional, view, write_description, Dtype, Whole};
 use crate::shared::Shared;
 use forgetting_runtime::{threads, BankSettings, NumberType, Settings};
@@ -214,13 +214,17 @@ impl Fleet {
         output(py, self.fleet.lock(py)?.covariance(index.0).map_err(raise)?)
     }
 
-    /// How far each estimate can be trusted now, in O(n) a stream, O(n^2) where it is a bank.
+    /// How far each estimate can be trusted now, in O(n) a stream, O(n^2) where it is a bank. Like
+    /// `update` it hears Ctrl-C.
     ///
     /// Returns
     /// -------
     /// FleetHealth
     fn health<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let health = self.fleet.lock(py)?.health();
+        let held = self.fleet.lock(py)?;
+        let fleet = &*held;
+        let health = py.detach(|| fleet.health(&mut heed_signals)).map_err(raise)?;
+        drop(held);
         let (largest, smallest) = (output(py, health.largest)?, output(py, health.smallest)?);
         let (windup, samples) = (output(py, health.windup)?, output(py, health.samples)?);
         let made = (self.dtype(), largest, smallest, windup, samples);

@@ -2,7 +2,7 @@
 
 use super::{Fleet, FleetUpdate};
 use crate::arrays::{optional, output, Input};
-use crate::errors::{invalid, raise};
+use crate::errors::{heed_signals, invalid, raise};
 use crate::settings::{names, read_optional, view, Names};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
@@ -29,7 +29,8 @@ impl Fleet {
         output(py, py.detach(|| fleet.predict(phi)).map_err(raise)?)
     }
 
-    /// Take a sample of each stream, without holding the interpreter.
+    /// Take a sample of each stream, without holding the interpreter. Ctrl-C is heard within half a
+    /// second; the fleet is then as it was before, bit for bit.
     ///
     /// Parameters
     /// ----------
@@ -74,7 +75,7 @@ impl Fleet {
         let samples = (phi.view("phi")?, y.view("y")?, mask.as_deref());
         let (fleet, outputs) = (&mut *held, names(outputs.as_ref()));
         let update = py
-            .detach(|| fleet.update_after(elapsed, samples, outputs.as_deref()))
+            .detach(|| fleet.update_while(elapsed, samples, outputs.as_deref(), &mut heed_signals))
             .map_err(raise)?;
         Ok(FleetUpdate {
             error: optional(py, update.error)?,

@@ -1,7 +1,7 @@
 //! A `Fleet` as a table of bytes, pickled and copied.
 
 use super::Fleet;
-use crate::errors::raise;
+use crate::errors::{heed_signals, raise};
 use forgetting_runtime::Error;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyTuple, PyType};
@@ -37,9 +37,11 @@ impl Fleet {
 
     /// The fleet that has these states.
     #[staticmethod]
-    fn _of_states(fresh: &[u8], states: Vec<Bound<'_, PyBytes>>) -> PyResult<Self> {
+    fn _of_states(py: Python<'_>, fresh: &[u8], states: Vec<Bound<'_, PyBytes>>) -> PyResult<Self> {
         let states: Vec<&[u8]> = states.iter().map(|state| state.as_bytes()).collect();
-        forgetting_runtime::Fleet::from_states(fresh, &states).map(Self::of).map_err(raise)
+        py.detach(|| forgetting_runtime::Fleet::from_states(fresh, &states, &mut heed_signals))
+            .map(Self::of)
+            .map_err(raise)
     }
 
     #[allow(clippy::type_complexity, reason = "Python's protocol")]

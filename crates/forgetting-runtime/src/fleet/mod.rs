@@ -6,7 +6,9 @@ mod exchange;
 mod health;
 mod make;
 mod many;
+mod numbers;
 mod one_by_one;
+mod part;
 mod saved;
 mod stream;
 mod streams;
@@ -20,10 +22,8 @@ pub use update::FleetUpdate;
 use crate::bank::{self, Bank, BankSettings};
 use crate::choice::Description;
 use crate::error::Error;
-use crate::estimator::covariance;
-#[cfg(doc)]
-use crate::estimator::Estimator;
-use crate::number::{each, make, map, ByType, Family, Number};
+use crate::estimator::{covariance, Estimator, GoOn};
+use crate::number::{both, each, make, map, ByType, Family, Number};
 use crate::number::{Array, Elements, NumberType, View};
 use crate::settings::Settings;
 use banks::Banks;
@@ -184,9 +184,11 @@ impl Fleet {
     }
 
     /// How far each estimate can be trusted now, in O(n) a stream.
-    #[must_use]
-    pub fn health(&self) -> StreamHealth {
-        kept!(&self.kept, streams => streams.health())
+    ///
+    /// # Errors
+    /// That of `go_on`, which is asked a few times a second.
+    pub fn health(&self, go_on: GoOn<'_>) -> Result<StreamHealth, Error> {
+        Ok(kept!(&self.kept, streams => streams.health(go_on))?)
     }
 
     /// P of a stream, (n, n), in units of 1/φ².
@@ -209,39 +211,6 @@ impl Fleet {
     /// [`Error::Shape`] names `phi`.
     pub fn predict(&self, phi: View<'_>) -> Result<Array, Error> {
         kept!(&self.kept, streams => update::predict(&**streams, phi))
-    }
-
-    /// Takes a sample of each stream: `phi` (count, n), `y` (count,). A stream has none where
-    /// `mask` says no, or with a NaN. `outputs` names what is kept, of `error`, `leverage` and
-    /// `skipped`; [`FleetUpdate::DEFAULT_OUTPUTS`] if not given.
-    ///
-    /// # Errors
-    /// [`Error`] names the argument that does not fit; nothing has changed.
-    pub fn update(
-        &mut self,
-        samples: (View<'_>, View<'_>, Option<&[bool]>),
-        outputs: Option<&[&str]>,
-    ) -> Result<FleetUpdate, Error> {
-        self.update_after(None, samples, outputs)
-    }
-
-    /// The same, `elapsed` () or (count,) after the last sample of each stream, in the unit of time in
-    /// which forgetting is stated; see [`UpdateOptions::elapsed`](crate::UpdateOptions). Streams are
-    /// then taken one by one, which is slower.
-    ///
-    /// # Errors
-    /// Those of [`Fleet::update`], and [`Error`] names `elapsed` unless it is finite and not negative.
-    pub fn update_after(
-        &mut self,
-        elapsed: Option<View<'_>>,
-        samples: (View<'_>, View<'_>, Option<&[bool]>),
-        outputs: Option<&[&str]>,
-    ) -> Result<FleetUpdate, Error> {
-        let outputs = outputs.unwrap_or(&FleetUpdate::DEFAULT_OUTPUTS);
-        let threads = self.threads;
-        kept!(&mut self.kept, streams => {
-            update::update(&mut **streams, samples, elapsed, outputs, threads)
-        })
     }
 
     /// Back to the initial estimate and covariance, for the streams that `mask` names, or all.

@@ -6,6 +6,7 @@ use super::streams::Streams;
 use super::{kept, Fleet, Kept};
 use crate::bank::saved_type as bank_type;
 use crate::error::Error;
+use crate::estimator::record::{GoOn, Pause};
 use crate::estimator::saved_type;
 use crate::number::{each, make, Number};
 use forgetting::bank::Bank;
@@ -17,12 +18,12 @@ impl Fleet {
     /// The fleet of which [`Fleet::fresh_state`] and [`Fleet::state`] gave these states.
     ///
     /// # Errors
-    /// [`Error`] says what is wrong with a state, [`Error::Stream`] with which.
-    pub fn from_states(fresh: &[u8], states: &[&[u8]]) -> Result<Self, Error> {
+    /// [`Error`] says what is wrong with a state, [`Error::Stream`] with which; and that of `go_on`.
+    pub fn from_states(fresh: &[u8], states: &[&[u8]], go_on: GoOn<'_>) -> Result<Self, Error> {
         let kept = if is_bank(fresh) {
-            Kept::Banks(make!(bank_type(fresh)?, T => banks::<T>(fresh, states)?))
+            Kept::Banks(make!(bank_type(fresh)?, T => banks::<T>(fresh, states, go_on)?))
         } else {
-            Kept::Estimators(make!(saved_type(fresh)?, T => estimators::<T>(fresh, states)?))
+            Kept::Estimators(make!(saved_type(fresh)?, T => estimators::<T>(fresh, states, go_on)?))
         };
         Ok(Self { kept, threads: None })
     }
@@ -47,13 +48,19 @@ impl Fleet {
 }
 
 /// Estimators of these states.
-fn estimators<T: Number>(fresh: &[u8], states: &[&[u8]]) -> Result<Streams<T>, Error> {
+fn estimators<T: Number>(
+    fresh: &[u8],
+    states: &[&[u8]],
+    go_on: GoOn<'_>,
+) -> Result<Streams<T>, Error> {
     let mut streams = Streams::of(AnyEstimator::<T>::from_bytes(fresh)?);
     check_stream(streams.fresh())?;
     check_functions(streams.fresh())?;
     check_lengths(states, least_length(streams.fresh()))?;
     streams.grow(states.len())?;
+    let mut pause = Pause::new(go_on, 1, streams.parameters());
     for (stream, state) in states.iter().enumerate() {
+        pause.after(1)?;
         let estimator = AnyEstimator::from_bytes(state);
         streams.put(stream, estimator.map_err(|error| Error::Stream { stream, error })?)?;
     }
@@ -61,11 +68,13 @@ fn estimators<T: Number>(fresh: &[u8], states: &[&[u8]]) -> Result<Streams<T>, E
 }
 
 /// Banks of these states.
-fn banks<T: Number>(fresh: &[u8], states: &[&[u8]]) -> Result<Banks<T>, Error> {
+fn banks<T: Number>(fresh: &[u8], states: &[&[u8]], go_on: GoOn<'_>) -> Result<Banks<T>, Error> {
     let mut streams = Banks::of(Bank::<T>::from_bytes(fresh)?)?;
     check_lengths(states, least_length(&streams.fresh().members()[0]))?;
     streams.grow(states.len())?;
+    let mut pause = Pause::new(go_on, 1, streams.parameters());
     for (stream, state) in states.iter().enumerate() {
+        pause.after(1)?;
         let bank = Bank::from_bytes(state);
         streams.put(stream, bank.map_err(|error| Error::Stream { stream, error })?)?;
     }

@@ -5,6 +5,7 @@ use super::estimators;
 use super::health::StreamHealth;
 use crate::configure::check_copies;
 use crate::estimator::extremes;
+use crate::estimator::record::{GoOn, Pause};
 use crate::number::{Array, Elements, Number};
 use forgetting::fleet::{check_kind, Fleet};
 use forgetting::rates::Rate;
@@ -140,7 +141,10 @@ impl<T: Number> Streams<T> {
     }
 
     /// What the health of each stream is made of.
-    pub fn health(&self) -> StreamHealth {
+    ///
+    /// # Errors
+    /// That of `go_on`.
+    pub fn health(&self, go_on: GoOn<'_>) -> Result<StreamHealth, Error> {
         let count = self.count();
         let (mut largest, mut smallest) = (vec![T::ZERO; count], vec![T::ZERO; count]);
         match self {
@@ -153,18 +157,20 @@ impl<T: Number> Streams<T> {
         let windup = largest.iter().enumerate().map(|(i, &d)| d > limit(i)).collect();
         if self.fresh().prior().is_of_data() {
             // in the units of the user
+            let mut pause = Pause::new(go_on, 1, self.parameters());
             let ends = largest.iter_mut().zip(&mut smallest).enumerate();
             for (i, (largest, smallest)) in ends {
                 let (most, least) = extremes(&self.get(i));
                 (*largest, *smallest) = (T::from_f64(most), T::from_f64(least));
+                pause.after(1)?;
             }
         }
-        StreamHealth {
+        Ok(StreamHealth {
             windup: Array { shape: vec![count], elements: Elements::Bool(windup) },
             samples: Array { shape: vec![count], elements: Elements::I64(self.samples()) },
             largest: T::array(largest, &[count]),
             smallest: T::array(smallest, &[count]),
-        }
+        })
     }
 
     /// The largest element of D of the stream at `index` before its first sample.

@@ -1,8 +1,11 @@
 //! A sample for every stream of a fleet.
 
 use super::many::Many;
+use super::threads::Wishes;
+use super::{kept, Fleet, Kept};
 use crate::error::{check_shape, Error};
-use crate::number::{Array, Elements, Number, View};
+use crate::estimator::GoOn;
+use crate::number::{each, Array, Elements, Number, View};
 use forgetting::fleet::{Outputs, Samples};
 use forgetting::Skip;
 use std::borrow::Cow;
@@ -37,13 +40,73 @@ impl FleetUpdate {
     }
 }
 
+impl Fleet {
+    /// Takes a sample of each stream: `phi` (count, n), `y` (count,). A stream has none where
+    /// `mask` says no, or with a NaN. `outputs` names what is kept, of `error`, `leverage` and
+    /// `skipped`; [`FleetUpdate::DEFAULT_OUTPUTS`] if not given.
+    ///
+    /// # Errors
+    /// [`Error`] names the argument that does not fit; nothing has changed.
+    pub fn update(
+        &mut self,
+        samples: (View<'_>, View<'_>, Option<&[bool]>),
+        outputs: Option<&[&str]>,
+    ) -> Result<FleetUpdate, Error> {
+        self.update_after(None, samples, outputs)
+    }
+
+    /// The same, `elapsed` () or (count,) after the last sample of each stream, in the unit of time in
+    /// which forgetting is stated; see [`UpdateOptions::elapsed`](crate::UpdateOptions). Streams are
+    /// then taken one by one, which is slower.
+    ///
+    /// # Errors
+    /// Those of [`Fleet::update`], and [`Error`] names `elapsed` unless it is finite and not negative.
+    pub fn update_after(
+        &mut self,
+        elapsed: Option<View<'_>>,
+        samples: (View<'_>, View<'_>, Option<&[bool]>),
+        outputs: Option<&[&str]>,
+    ) -> Result<FleetUpdate, Error> {
+        self.take(elapsed, samples, outputs, None)
+    }
+
+    /// The same, as long as `go_on` says so, which is asked a few times a second where an update of so many
+    /// streams takes long.
+    ///
+    /// # Errors
+    /// Those of [`Fleet::update_after`], and that of `go_on`; nothing has changed.
+    pub fn update_while(
+        &mut self,
+        elapsed: Option<View<'_>>,
+        samples: (View<'_>, View<'_>, Option<&[bool]>),
+        outputs: Option<&[&str]>,
+        go_on: GoOn<'_>,
+    ) -> Result<FleetUpdate, Error> {
+        self.take(elapsed, samples, outputs, Some(go_on))
+    }
+
+    fn take(
+        &mut self,
+        elapsed: Option<View<'_>>,
+        samples: (View<'_>, View<'_>, Option<&[bool]>),
+        outputs: Option<&[&str]>,
+        go_on: Option<GoOn<'_>>,
+    ) -> Result<FleetUpdate, Error> {
+        let outputs = outputs.unwrap_or(&FleetUpdate::DEFAULT_OUTPUTS);
+        let wishes = Wishes { threads: self.threads, go_on };
+        kept!(&mut self.kept, streams => {
+            update(&mut **streams, samples, elapsed, outputs, wishes)
+        })
+    }
+}
+
 /// Takes a sample for each stream.
-pub(super) fn update<T: Number>(
+fn update<T: Number>(
     streams: &mut impl Many<T>,
     (phi, y, mask): (View<'_>, View<'_>, Option<&[bool]>),
     elapsed: Option<View<'_>>,
     outputs: &[&str],
-    threads: Option<usize>,
+    wishes: Wishes<'_>,
 ) -> Result<FleetUpdate, Error> {
     let count = streams.shape()[0];
     if let Some(name) = outputs.iter().find(|name| !FleetUpdate::OUTPUTS.contains(name)) {
@@ -64,7 +127,7 @@ pub(super) fn update<T: Number>(
     };
     let samples = Samples { phi: &phi, y: &y, mask };
     let elapsed = elapsed.map(|elapsed| read_elapsed(elapsed, count)).transpose()?;
-    let used = streams.update(elapsed.as_deref(), samples, results, threads)?;
+    let used = streams.update(elapsed.as_deref(), samples, results, wishes)?;
     Ok(FleetUpdate {
         error: error.map(|numbers| T::array(numbers, &[count])),
         leverage: leverage.map(|numbers| T::array(numbers, &[count])),

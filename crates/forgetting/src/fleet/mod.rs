@@ -5,6 +5,7 @@
 //! recursion is the same source. With at most ten parameters the bits are those of as many
 //! estimators; with more, sums are taken in another order.
 
+mod before;
 mod following;
 mod kind;
 mod part;
@@ -14,6 +15,7 @@ mod starts;
 mod transfer;
 mod units;
 
+pub use before::Before;
 pub use forgetting_kernels::kernel::lanes::streams::{Outputs, Samples, REFUSED};
 pub use kind::{check_kind, check_stream};
 pub use part::{Part, Parts};
@@ -136,6 +138,11 @@ impl<T: Kernels> Fleet<T> {
     /// n
     pub fn parameters(&self) -> usize {
         self.fresh.prior().memory().parameters()
+    }
+
+    /// Whether the prior of any stream follows the data: its first samples then cost more than others.
+    pub fn follows_data(&self) -> bool {
+        self.units.as_ref().is_some_and(|units| units.following > 0)
     }
 
     /// Takes a sample for each stream; returns how many used it. See [`Part::update`].

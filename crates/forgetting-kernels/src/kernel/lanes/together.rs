@@ -196,8 +196,22 @@ impl<T: Real> Kernel<T> for MixThetas<'_, T> {
 
     #[inline(always)]
     fn run<V: Vector<T>, const GROUP: usize>(self) {
-        if GROUP < 8 {
+        if COMPACT {
+            mix_some(self);
+        } else if GROUP < 8 {
             with_few!(self.mixed.len(), mix::<T>(self));
+        }
+    }
+}
+
+/// Any number of them, where programs are to be small.
+fn mix_some<T: Real>(task: MixThetas<'_, T>) {
+    task.mixed.fill(T::ZERO);
+    for (i, &weight) in task.weights.iter().enumerate() {
+        let (block, lane) = (i / Line::<T>::LANES, i % Line::<T>::LANES);
+        let thetas = &task.thetas[block * task.stride..];
+        for (mixed, theta) in task.mixed.iter_mut().zip(thetas) {
+            *mixed = weight.mul_add(theta.0.as_ref()[lane], *mixed);
         }
     }
 }

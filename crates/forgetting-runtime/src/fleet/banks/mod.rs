@@ -6,14 +6,14 @@
 
 mod health;
 mod kind;
-mod numbers;
 mod update;
 
+use super::numbers::{load, sizes, store};
 use crate::number::Number;
 use forgetting::bank::Bank;
 use forgetting::{Error, Memory};
 use kind::check_stream;
-use numbers::{load, sizes, store};
+use std::convert::Infallible;
 
 /// Streams that are banks of the same members, mixer and prior.
 #[derive(Clone)]
@@ -145,11 +145,19 @@ impl<T: Number> Banks<T> {
 
     /// Shows every stream, one after the other.
     fn each(&self, mut show: impl FnMut(usize, &Bank<T>)) {
+        let Ok(()) = self.try_each(|i, bank| {
+            show(i, bank);
+            Ok::<(), Infallible>(())
+        });
+    }
+
+    /// The same, until that fails.
+    fn try_each<E>(&self, mut show: impl FnMut(usize, &Bank<T>) -> Result<(), E>) -> Result<(), E> {
         let mut bank = self.fresh.clone();
-        for i in 0..self.count {
+        (0..self.count).try_for_each(|i| {
             load(&mut bank, self.state(i));
-            show(i, &bank);
-        }
+            show(i, &bank)
+        })
     }
 
     /// θ of each stream, n numbers after n numbers.

@@ -1,10 +1,11 @@
 //! Samples of streams that are banks.
 
-use super::numbers::{load, store};
 use super::Banks;
 use crate::fleet::many::Many;
+use crate::fleet::numbers::{copy, load, store};
 use crate::fleet::one_by_one::{nothing, one_by_one, outcome, Outcome};
-use crate::fleet::threads;
+use crate::fleet::part;
+use crate::fleet::threads::Wishes;
 use crate::missing::is_missing;
 use crate::number::Number;
 use forgetting::bank::Bank;
@@ -24,11 +25,11 @@ impl<T: Number> Many<T> for Banks<T> {
         elapsed: Option<&[T]>,
         samples: Samples<'_, T>,
         outputs: Outputs<'_, T>,
-        threads: Option<usize>,
+        wishes: Wishes<'_>,
     ) -> Result<usize, Error> {
         let (n, (numbers, counts)) = (self.parameters(), self.widths());
-        let parts = threads::parts(threads, self.count * numbers * EFFORT);
-        let streams = self.count.div_ceil(parts).max(1);
+        let plan = wishes.plan(self.count * numbers * EFFORT);
+        let streams = self.count.div_ceil(plan.parts).max(1);
         self.workers.resize_with(self.count.div_ceil(streams), || self.fresh.clone());
         let states = self.numbers.chunks_mut(streams * numbers);
         let states = states.zip(self.counts.chunks_mut(streams * counts));
@@ -36,20 +37,14 @@ impl<T: Number> Many<T> for Banks<T> {
         let parts = parts.map(|(part, (bank, (numbers, counts)))| {
             let elapsed = elapsed.map(|elapsed| &elapsed[part * streams..]);
             let widths = (self.start.0.len(), self.start.1.len());
-            (numbers.len() / widths.0, Part { bank, numbers, counts, widths, elapsed })
+            Part { bank, numbers, counts, widths, elapsed }
         });
-        Ok(threads::sum(parts, n, (samples, outputs), |mut part, samples, mut outputs| {
-            one_by_one(samples, &mut outputs, |i, phi, y| part.take(i, phi, y))
-        }))
+        plan.update(parts, n, (samples, outputs))
     }
 
     fn predict(&self, phi: &[T], prediction: &mut [T]) -> Result<(), Error> {
-        let (n, mut predicted) = (self.parameters(), Ok(()));
-        self.each(|i, bank| {
-            let own = bank.predict(&phi[i * n..(i + 1) * n], &mut prediction[i..=i]);
-            predicted = predicted.and(own);
-        });
-        predicted
+        let n = self.parameters();
+        self.try_each(|i, bank| bank.predict(&phi[i * n..(i + 1) * n], &mut prediction[i..=i]))
     }
 }
 
@@ -81,5 +76,26 @@ impl<T: Number> Part<'_, T> {
         };
         store(bank, (numbers, counts));
         told
+    }
+}
+
+impl<T: Number> part::Part<T> for Part<'_, T> {
+    type Before = (Vec<T>, Vec<u64>);
+
+    fn count(&self) -> usize {
+        self.numbers.len() / self.widths.0
+    }
+
+    fn update(&mut self, samples: Samples<'_, T>, outputs: &mut Outputs<'_, T>) -> usize {
+        one_by_one(samples, outputs, |i, phi, y| self.take(i, phi, y))
+    }
+
+    fn before(&mut self) -> Result<Self::Before, Error> {
+        Ok((copy(self.numbers)?, copy(self.counts)?))
+    }
+
+    fn put_back(&mut self, (numbers, counts): &Self::Before) {
+        self.numbers.copy_from_slice(numbers);
+        self.counts.copy_from_slice(counts);
     }
 }
