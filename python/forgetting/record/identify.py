@@ -12,16 +12,18 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import forgetting as fg
+from forgetting.models.named import NamedModel
 from forgetting.models.orders import Each
 from forgetting.prediction import check_level
 from forgetting.record.ahead import asked
-from forgetting.record.feedback import Feedback, feedback
+from forgetting.record.feedback import Feedback
 from forgetting.record.half_life import with_time
 from forgetting.record.identification import Identification
 from forgetting.record.judge import Judged, judge, settled
 from forgetting.record.known import Bounds, Known
 from forgetting.record.learned import Learned, learned
 from forgetting.record.limits import Limits
+from forgetting.record.linear import Linear
 from forgetting.record.missing import Words
 from forgetting.record.moved import Moved
 from forgetting.record.noise import noise_of, refuse_functions
@@ -30,7 +32,7 @@ from forgetting.record.read import Record, read
 from forgetting.record.release import release
 from forgetting.record.remembered import remembered
 from forgetting.record.scores import score
-from forgetting.record.trace import Progress, errors_of, errors_without_forgetting, run
+from forgetting.record.trace import Progress, errors_of, run
 from forgetting.record.which import build, listed, which
 from forgetting.words.errors import RecordError
 
@@ -159,35 +161,24 @@ def identify(
         check_level(level)
     source = read(record, time, gap=gap, missing=missing)
     columns = listed(output), listed(input)
-    course: Learned | None = None
     arx, named = which(formula, arx, model)
+    own: Linear | Learned
+    chosen: dict[str, Any] = {}
     if named is None:
-        samples = build(source, formula, *columns, arx, offset)
+        own = Linear.of(build(source, formula, *columns, arx, offset), known)
+    elif half_life is not None or by_clock:
+        raise RecordError(f"the model {model} forgets by samples; leave out what counts time")
     else:
-        if half_life is not None or by_clock:
-            raise RecordError(f"the model {model} forgets by samples; leave out what counts time")
-        chosen = {"rule": rule, "gate": gate, "dtype": dtype}
+        chosen = {"offset": offset, "rule": rule, "gate": gate, "dtype": dtype}
         chosen["initial_covariance"] = initial_covariance
-        course = learned(source, *columns, named, offset, known, **chosen)
+        own = learned(source, *columns, named, known=known, **chosen)
     question = None
     if ahead is not None:
-        if known.fixed or (named is not None and known):
-            raise RecordError(
-                "forecasts ahead do not take fixed values, nor of a model with coloured noise what "
-                "else is known; leave out one of the two"
-            )
-        model_settings = {} if named is None else {"offset": offset, **chosen}
-        question = asked(source, *columns, (arx, named), ahead, level, **model_settings)
-    if course is not None:
-        known, samples = course.known, course.samples
+        refuse_known(known, named)
+        question = asked(source, *columns, (arx, named), ahead, level, **chosen)
+    known, samples, past = own.known, own.samples, own.past
     del record, source  # the table, which nobody else may hold, is as large as what is made of it
     release(len(samples.y))
-    past = feedback(samples) if course is None else course.past
-    if course is None:
-        known.check(samples.regressors, samples.outputs)
-        if known:
-            past = past.knowing(known.values(samples.regressors), known.left(samples.regressors))
-        samples = known.without_fixed(samples)
     rule, time_of = with_time(rule, half_life, by_clock, samples)
     settings: dict[str, Any] = {
         "targets": samples.y.shape[1],
@@ -195,7 +186,7 @@ def identify(
         "dtype": dtype,
     }
     moves = initial_covariance is None and not known.of_constant(samples)
-    seen = known.from_priors(samples) if course is None else course.seen
+    seen = own.seen
     here = origin(seen, moves=moves)
     moved = here.moved(seen)
 
@@ -212,17 +203,10 @@ def identify(
     teach(estimator)
     within = known.limits_from_priors(samples.regressors)
     limits = Limits(*within, here)
-    hold = limits.hold if course is None else course.hold
-    told = known.bounds and not (known.feed_back and course is None)
-    kept = hold if told else None, within if known.feed_back else None
-    trace = run(estimator, moved, progress, time_of, *kept)
-    trace = trace if course is None else course.put(trace)
+    fed_back = within if known.feed_back else None
+    trace = own.put(run(estimator, moved, progress, time_of, own.hold(limits), fed_back))
     units = np.ones(len(initial)) if estimator.units is None else estimator.units
-    plain = (
-        errors_without_forgetting(moved, settings, teach)
-        if course is None
-        else course.error_without_forgetting
-    )
+    plain = own.never_forgetting(moved, settings, teach)
     alone = None
     if not (known.fixed or known.prior):
         alone = errors_without_inputs(moved, past, rule, gate, settings, time_of)
@@ -238,10 +222,7 @@ def identify(
         health=estimator.health() if isinstance(estimator, fg.RLS) else None,
     )
     judgement = judge(judged)  # before the trace is changed
-    trace = here.back(trace) if course is None else course.back(trace)
-    if course is None:
-        limits.put(trace.theta)
-        known.add_priors(trace.theta, samples.regressors)
+    trace = own.back(trace, here, limits)
     answer = None if question is None else question.answer(trace)
     return Identification(
         samples=samples,
@@ -258,6 +239,15 @@ def identify(
         level=level,
         ahead=answer,
     )
+
+
+def refuse_known(known: Known, named: NamedModel | None) -> None:
+    """Refuse forecasts where what is known of parameters would not count in them."""
+    if known.fixed or (named is not None and known):
+        raise RecordError(
+            "forecasts ahead do not take fixed values, nor of a model with coloured noise what "
+            "else is known; leave out one of the two"
+        )
 
 
 def errors_without_inputs(

@@ -6,7 +6,7 @@ have no place in it, and what is estimated of one with a prior is how far it is 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -17,13 +17,14 @@ from forgetting.models.named import NamedModel
 from forgetting.models.signal_origin import SignalOrigin
 from forgetting.record.feedback import Feedback, of_layout
 from forgetting.record.known import Known
-from forgetting.record.limits import within
+from forgetting.record.limits import Limits, within
 from forgetting.record.moved import Moved
 from forgetting.record.noise import noise_of, refuse_functions
+from forgetting.record.origin import Origin
 from forgetting.record.polynomial import Array, Recorded, recorded
 from forgetting.record.read import Record
 from forgetting.record.samples import Samples
-from forgetting.record.trace import Trace
+from forgetting.record.trace import Hold, Trace
 
 OUTPUTS = ("phi", "y", "theta", "error", "scale")
 
@@ -70,7 +71,13 @@ class Learned:
         theta = self.theta[:, :, np.newaxis].copy()
         return replace(trace, theta=theta, error=self.error, trust=self.trust)
 
-    def back(self, trace: Trace) -> Trace:
+    def never_forgetting(
+        self, moved: Moved, settings: dict[str, Any], teach: Callable[[Any], None]
+    ) -> Array:
+        """One-step errors (T, 1) of the same model that never forgets."""
+        return self.error_without_forgetting
+
+    def back(self, trace: Trace, here: Origin, limits: Limits) -> Trace:
         """The trace with P of signals as they are; the variance of the offset changes in place.
 
         It is exact after each piece of the run, and drawn straight in between.
@@ -83,8 +90,12 @@ class Learned:
         trace.variance[:, -1] = np.interp(np.arange(len(trace.variance)), trace.rows, ends)
         return replace(trace, covariance=origin.covariance(self.theta[-1], trace.covariance))
 
-    def hold(self, _: Array, covariance: Array, first: int) -> None:
-        """Move estimates inside their bounds, in place; see `forgetting.record.limits.Limits`."""
+    def hold(self, limits: Limits) -> Hold | None:
+        """What moves estimates inside their bounds, if there are any."""
+        return self._hold if self.known.bounds else None
+
+    def _hold(self, _: Array, covariance: Array, first: int) -> None:
+        """Move estimates inside, in place; see `forgetting.record.limits.Limits`."""
         theta = self.theta[first : first + len(covariance)]
         theta[:] = inside(
             theta, covariance, self.known.limits(self.seen.regressors), self.seen.origin
