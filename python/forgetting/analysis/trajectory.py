@@ -183,7 +183,7 @@ def _behind_priors(phibar: Array) -> int:
     samples, _, n = phibar.shape
     speaks = (phibar != 0).any(axis=1)
     first = int(speaks[:, speaks.any(axis=0)].argmax(axis=0).max(initial=0))
-    return max(min(first + 1, samples - 2 * n), 1)
+    return max(min(first + 1, int(samples - 2 * n)), 1)
 
 
 def trajectory_of(
