@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import re
+from typing import Any
 
 from markupsafe import Markup
 from matplotlib import pyplot as plt
@@ -54,11 +55,12 @@ def inline(figure: Figure, description: str) -> Markup:
     description : str
         What the picture shows, for those who cannot see it.
     """
-    for drawn in (figure, *figure.axes):
-        drawn.patch.set_visible(False)
+    for background in (figure.patch, *(ax.patch for ax in figure.axes)):
+        background.set_visible(False)
     stream = io.StringIO()
     # `savefig` draws twice, once to lay out and once to write; an SVG is laid out as it is written
-    FigureCanvasSVG(figure).print_svg(stream, metadata={"Date": None})
+    canvas: Any = FigureCanvasSVG(figure)
+    canvas.print_svg(stream, metadata={"Date": None})
     plt.close(figure)
     return Markup(themed(stream.getvalue(), description))
 
