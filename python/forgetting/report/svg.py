@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import re
-from typing import Any
 
 from markupsafe import Markup
 from matplotlib import pyplot as plt
