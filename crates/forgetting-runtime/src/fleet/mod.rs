@@ -22,8 +22,10 @@ pub use update::FleetUpdate;
 use crate::bank::{self, Bank, BankSettings};
 use crate::choice::Description;
 use crate::error::Error;
-use crate::estimator::{covariance, Estimator, GoOn};
-use crate::number::{both, each, make, map, ByType, Family, Number};
+#[cfg(doc)]
+use crate::estimator::Estimator;
+use crate::estimator::{covariance, GoOn};
+use crate::number::{each, make, map, ByType, Family, Number};
 use crate::number::{Array, Elements, NumberType, View};
 use crate::settings::Settings;
 use banks::Banks;

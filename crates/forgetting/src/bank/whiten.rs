@@ -25,7 +25,8 @@ pub(super) fn whiten<T: Kernels>(
 /// The same for a matrix Γ.
 fn whiten_rows<T: Kernels>(errors: &mut [T], targets: usize, gamma: &[T], root: &mut [T]) {
     let p = errors.len() / targets;
-    root.copy_from_slice(gamma);
+    // not `copy_from_slice`: a program for a microcontroller would hold what is said of other lengths
+    root.iter_mut().zip(gamma).for_each(|(own, &given)| *own = given);
     // the members have already taken a sample with this Γ
     if cholesky(root, p, "gamma").is_err() {
         return;
