@@ -15,10 +15,10 @@ fn fleets() -> [Fleet; 4] {
         Fleet::new(count, &settings, None).unwrap()
     };
     [
-        of_rule("exponential", 33_001, 10),
+        of_rule("exponential", 66_001, 10),
         of_rule("subspace", 25_001, 12),
-        of_rule("oblique_projection", 15_001, 3),
-        Fleet::of_banks(10_001, &BankSettings::new(3)).unwrap(),
+        of_rule("oblique_projection", 120_001, 3),
+        Fleet::of_banks(40_001, &BankSettings::new(3)).unwrap(),
     ]
 }
 

@@ -55,8 +55,8 @@ impl<T: Number> Many<T> for Streams<T> {
             Self::Blocks(fleet) => {
                 let numbers = count * n * (n + 3) / 2;
                 let plan = match fleet.follows_data() {
-                    true => wishes.plan(numbers),
-                    false => wishes.plan_of_steady(numbers),
+                    true => wishes.plan_of_followers(numbers),
+                    false => wishes.plan(numbers),
                 };
                 let parts = fleet.parts(plan.parts)?;
                 plan.update(parts, n, (samples, outputs))

@@ -14,10 +14,11 @@ use forgetting::Error;
 const LARGE: usize = 1 << 19;
 /// Shares for each core, so that one that is held up does not hold up the others.
 const SHARES: usize = 4;
-/// Numbers of the state from which on an update may take long enough to be asked whether it goes on.
-const LONG: usize = 1 << 21;
-/// The same where every sample of every stream costs the same, and little.
-const LONG_OF_STEADY: usize = 1 << 25;
+/// Numbers of the state from which on an update may take long enough, some 30 ms, to be asked
+/// whether it goes on.
+const LONG: usize = 1 << 24;
+/// The same where a first sample costs a stream some fifty times as much as a later one.
+const LONG_AT_FIRST: usize = 1 << 22;
 /// Numbers of a part of such an update, and the most parts that there are.
 const PART: usize = 1 << 16;
 const MOST: usize = 512;
@@ -53,9 +54,9 @@ impl<'a> Wishes<'a> {
         self.plan_from(LONG, numbers)
     }
 
-    /// The same where every sample of every stream costs the same, and little.
-    pub fn plan_of_steady(self, numbers: usize) -> Plan<'a> {
-        self.plan_from(LONG_OF_STEADY, numbers)
+    /// The same where a first sample costs a stream some fifty times as much as a later one.
+    pub fn plan_of_followers(self, numbers: usize) -> Plan<'a> {
+        self.plan_from(LONG_AT_FIRST, numbers)
     }
 
     fn plan_from(self, long: usize, numbers: usize) -> Plan<'a> {
