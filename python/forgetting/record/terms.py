@@ -60,7 +60,8 @@ def terms(node: Any) -> int:
     sign = str(node.operator.symbol)
     counts = [terms(each) for each in node.args]
     if sign in ("**", "^") and len(counts) == 2:
-        return power(counts[0], node.args[1])
+        # the exponent is evaluated, too, also where it is no number
+        return max(power(counts[0], node.args[1]), counts[1])
     if len(counts) < 2:
         return sum(counts)
     left, right = counts[0], counts[-1]
