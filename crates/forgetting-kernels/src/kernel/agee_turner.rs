@@ -183,8 +183,10 @@ fn some<T: Real>(task: &mut AgeeTurner<'_, T>) {
     copy_some(&mut d, diagonal);
     copy_some(&mut rest, x);
     let mut u = [[T::ZERO; BLOCK]; BLOCK];
-    for (c, i) in (0..n).flat_map(|c| (0..c).map(move |i| (c, i))) {
-        u[c][i] = columns[place::<T>(i, c)];
+    for c in 0..n {
+        for i in 0..c {
+            u[c][i] = columns[place::<T>(i, c)];
+        }
     }
     let (_, Scalars { slope, less_s, kept }) = pass(&u, &mut d, &rest, T::ONE / *c);
     let sum = loses_digits(&kept);

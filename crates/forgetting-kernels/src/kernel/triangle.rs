@@ -75,8 +75,10 @@ fn some_leverage<T: Real>(columns: &[T], diagonal: &[T], f: &[T]) -> T {
     copy_some(&mut padded, f);
     copy_some(&mut d, diagonal);
     let mut small = Small { u: [[T::ZERO; FEW]; FEW], d };
-    for (c, i) in (0..n).flat_map(|c| (0..c).map(move |i| (c, i))) {
-        small.u[c][i] = columns[place::<T>(i, c)];
+    for c in 0..n {
+        for i in 0..c {
+            small.u[c][i] = columns[place::<T>(i, c)];
+        }
     }
     small.leverage(&padded)
 }
