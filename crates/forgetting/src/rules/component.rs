@@ -40,6 +40,7 @@ use crate::memory::state::{State, Visitor};
 use crate::error::Error;
 use crate::memory::Memory;
 use crate::sample::factor_after;
+use forgetting_kernels::kernel::layout::FEW;
 use forgetting_kernels::Real;
 
 const BLOCKS: Parameter = Parameter::elements(
@@ -65,7 +66,7 @@ const SCHEDULE: Parameter = cycle::schedule(
 /// The registry entry.
 pub const ABOUT: About = About {
     forgetting_factor: true,
-    squares: 1,
+    squares: 2,
     cost: "O(n^3); cyclic O((p + largest block) n^2)",
     guarantees: Some(Guarantees {
         proper: Guarantee::ALWAYS,
@@ -172,6 +173,12 @@ impl<M: Memory> Forgetting<M> for Component<M> {
         Turns { cycle: self.cyclic.then(Cycle::default), root: BlockRoot::new(memory) }
     }
 
+    /// Where every block is a parameter.
+    fn defers(&self) -> bool {
+        let n = self.memory.parameters();
+        !self.cyclic && n > FEW && self.blocks.count() == n
+    }
+
     fn bounds(&self, constants: &Constants) -> Bounds {
         let common = M::Real::from_f64(constants.forgetting_factors.1);
         let factors = (0..self.blocks.count()).map(|b| self.factor(b, common, M::Real::ONE).to_f64());
@@ -211,6 +218,11 @@ impl<M: Memory> Forgetting<M> for Component<M> {
             added = variances[range].iter().fold(added, |sum, &v| weight.mul_add(v, sum));
         }
         factor.reserve(M::Real::ONE, added)?;
+        if factor.is_deferring() {
+            let weight = |i| growth(self.factor(i, common, elapsed), samples);
+            factor.defer_diagonal(|i| weight(i) * variances[i], step.work.gain.as_mut());
+            return Ok(Forgotten::rank(rank).with_factor(smallest.to_f64()));
+        }
         for (weight, range) in due() {
             turns.root.compute(factor, range.clone(), variances, step.work.gain.as_mut());
             turns.root.add_to(factor, range, weight, step.work.gain.as_mut());

@@ -85,6 +85,9 @@ pub(crate) const SCHEDULE: Parameter = cycle::schedule(
 /// Of what a long gap leaves of P, in rounding units: several products are rounded on the way.
 const ROUNDING: f64 = 32.0;
 
+/// So many dyads a sample are added one by one.
+const FEW_DYADS: usize = 4;
+
 /// The registry entry.
 pub const ABOUT: About = About {
     squares: 3,
@@ -269,6 +272,11 @@ impl<M: Memory> Forgetting<M> for RandomWalk<M> {
         self.bound.is_some()
     }
 
+    fn defers(&self) -> bool {
+        let several = self.process_noise.is_diagonal() && self.process_noise.rank() > FEW_DYADS;
+        several && self.turns.is_none() && self.process_noise.parameters() > FEW
+    }
+
     fn start(&self, _: M) -> Option<Cycle> {
         self.turns.map(|_| Cycle::default())
     }
@@ -319,6 +327,11 @@ impl<M: Memory> Forgetting<M> for RandomWalk<M> {
         step.factor.reserve(M::Real::ONE, steps * self.trace)?;
         if self.bound.is_some() {
             step.factor.shrink(shrink(steps * self.largest, self.per_bound));
+        }
+        if step.factor.is_deferring() {
+            let work = &mut step.work.first.as_mut()[..step.factor.parameters()];
+            step.factor.defer_diagonal(|i| steps * self.process_noise.element(i, i), work);
+            return Ok(Forgotten::rank(rank).with_factor(1.0));
         }
         for j in 0..rank {
             self.add(j, steps, step.factor, step.work);

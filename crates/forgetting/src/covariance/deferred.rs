@@ -1,0 +1,419 @@
+//! Covariance that is added to P, and to U D Uᵀ only when it matters: P = U D Uᵀ + A.
+//!
+//! To add diag(q) to U D Uᵀ takes a dyad for each parameter, O(n³). A sample needs less: what it brings
+//! depends on A fᵀ alone, for its row f, and
+//!
+//! ```text
+//! a = A fᵀ,  U D Uᵀ ← U D Uᵀ + a aᵀ/(f a),  A ← A − a aᵀ/(f a)
+//! ```
+//!
+//! moves that with one dyad, O(n²). P is the same before and after, A fᵀ = 0, so that the measurement is
+//! one of U D Uᵀ, and what is left of A is positive semidefinite: it is A shorted to the space orthogonal
+//! to A f. This is exact, not an approximation of adding diag(q).
+//!
+//! A is not to grow so large that its rounding counts beside q. Where an element of its diagonal is more than
+//! 4 n times what a sample adds to it, the part of A along that parameter is moved in the same way, f being
+//! a unit vector: one parameter a sample, so that A ≤ 5 n diag(q), whatever the input. Where
+//! samples differ so much that this does not keep up, all of A is moved at once.
+//!
+//! W. N. Anderson, G. E. Trapp, *Shorted operators II*, SIAM Journal on Applied Mathematics 28, 1975: that
+//! what is left is positive semidefinite, and the larger the larger A was.
+
+use super::Factor;
+use crate::memory::state::Visitor;
+use crate::memory::Memory;
+use forgetting_kernels::kernel::functions::{add_scaled, dot, scale, symmetric_multiply, symmetric_subtract};
+use forgetting_kernels::kernel::symmetric::stride;
+use forgetting_kernels::Real;
+
+/// An element of A's diagonal this many times n what a sample adds is moved to U D Uᵀ.
+const LARGE: f64 = 4.0;
+/// From this many times n on all of A is.
+const TOO_LARGE: f64 = 8.0;
+
+/// A, with all its numbers; nothing where all of P is in U D Uᵀ.
+#[derive(Clone, Debug)]
+pub(super) struct Deferred<M: Memory> {
+    memory: M,
+    matrix: M::Optional,
+}
+
+impl<M: Memory> Deferred<M> {
+    /// Nothing.
+    pub fn none(memory: M) -> Self {
+        Self { memory, matrix: memory.optional(0) }
+    }
+
+    /// A = 0, or nothing in a memory that has no room for it.
+    fn zeros(memory: M) -> Self {
+        let n = memory.parameters();
+        Self { memory, matrix: memory.optional(n * stride::<M::Real>(n)) }
+    }
+
+    #[inline(always)]
+    pub fn is_none(&self) -> bool {
+        self.matrix.as_ref().is_empty()
+    }
+
+    #[inline(always)]
+    fn stride(&self) -> usize {
+        stride::<M::Real>(self.memory.parameters())
+    }
+
+    /// The n numbers of row i.
+    fn row(&self, i: usize) -> &[M::Real] {
+        &self.matrix.as_ref()[i * self.stride()..][..self.memory.parameters()]
+    }
+
+    /// A_ii, 0 where there is no A.
+    #[inline]
+    fn variance(&self, i: usize) -> M::Real {
+        let place = i * (self.stride() + 1);
+        self.matrix.as_ref().get(place).copied().unwrap_or(M::Real::ZERO)
+    }
+
+    /// The elements of the diagonal.
+    fn variances(&self) -> impl Iterator<Item = M::Real> + '_ {
+        (0..self.memory.parameters()).map(|i| self.variance(i))
+    }
+
+    /// The largest of them.
+    pub fn largest(&self) -> M::Real {
+        self.variances().fold(M::Real::ZERO, M::Real::max)
+    }
+
+    /// Σ_i A_ii
+    pub fn trace(&self) -> M::Real {
+        self.variances().fold(M::Real::ZERO, |sum, x| sum + x)
+    }
+
+    /// A ← c A
+    #[inline]
+    pub fn scale(&mut self, c: M::Real) {
+        if c != M::Real::ONE && !self.is_none() {
+            scale(self.matrix.as_mut(), c);
+        }
+    }
+
+    /// A ← S A S with S = diag(`scale`).
+    pub fn scale_each(&mut self, scale: &[M::Real]) {
+        let (n, stride) = (self.memory.parameters(), self.stride());
+        for (row, &s) in self.matrix.as_mut().chunks_exact_mut(stride).zip(scale) {
+            row[..n].iter_mut().zip(scale).for_each(|(x, &t)| *x *= s * t);
+        }
+    }
+
+    /// `x` ← `x` + A·`f`
+    pub fn add_product(&self, f: &[M::Real], x: &mut [M::Real]) {
+        if !self.is_none() {
+            f.iter().enumerate().for_each(|(i, &f)| add_scaled(x, f, self.row(i)));
+        }
+    }
+
+    /// f·A·fᵀ
+    pub fn leverage(&self, f: &[M::Real]) -> M::Real {
+        if self.is_none() {
+            return M::Real::ZERO;
+        }
+        let rows = (0..f.len()).map(|i| f[i] * dot(self.row(i), f));
+        self.along(rows.fold(M::Real::ZERO, |sum, x| sum + x), f)
+    }
+
+    /// Adds c A to n x n numbers.
+    pub fn add_to(&self, dense: &mut [M::Real], c: M::Real) {
+        if !self.is_none() {
+            let n = self.memory.parameters();
+            for (i, numbers) in dense.chunks_exact_mut(n).enumerate() {
+                add_scaled(numbers, c, self.row(i));
+            }
+        }
+    }
+
+    /// Adds the elements of the diagonal to n numbers.
+    pub fn add_variances(&self, variances: &mut [M::Real]) {
+        if !self.is_none() {
+            variances.iter_mut().zip(self.variances()).for_each(|(sum, x)| *sum += x);
+        }
+    }
+
+    /// A ← that of `other`.
+    pub fn copy_from(&mut self, other: &Self) {
+        if self.matrix.as_ref().len() == other.matrix.as_ref().len() {
+            self.matrix.as_mut().copy_from_slice(other.matrix.as_ref());
+        } else {
+            self.matrix = other.matrix.clone();
+        }
+    }
+
+    /// Shows the upper triangle to `visitor`.
+    pub fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
+        if self.is_none() {
+            return;
+        }
+        let (n, stride) = (self.memory.parameters(), self.stride());
+        let matrix = self.matrix.as_mut();
+        for i in 0..n {
+            visitor.reals(&mut matrix[i * stride + i..i * stride + n]);
+            for j in i + 1..n {
+                matrix[j * stride + i] = matrix[i * stride + j];
+            }
+        }
+    }
+
+    /// Whether all elements are in range, and none on the diagonal negative.
+    pub fn is_sound(&self) -> bool {
+        if self.is_none() {
+            return true;
+        }
+        self.variances().all(|x| x >= M::Real::ZERO)
+            && self.matrix.as_ref().iter().all(|x| x.abs() <= M::Real::CEILING)
+    }
+
+    /// A_ij ← 0 and A_ji ← 0 for all j.
+    fn clear(&mut self, i: usize) {
+        let stride = self.stride();
+        let matrix = self.matrix.as_mut();
+        matrix[i * stride..(i + 1) * stride].fill(M::Real::ZERO);
+        matrix.iter_mut().skip(i).step_by(stride).for_each(|x| *x = M::Real::ZERO);
+    }
+
+    /// f·A·fᵀ, of which this is a sum: nothing where that is no more than rounding.
+    fn along(&self, sum: M::Real, f: &[M::Real]) -> M::Real {
+        let parts = f.iter().zip(self.variances());
+        let spread = parts.fold(M::Real::ZERO, |sum, (&f, x)| sum + f * f * x);
+        let rounding = M::Real::EPSILON * M::Real::from_f64(f.len() as f64) * spread;
+        if sum > rounding {
+            sum
+        } else {
+            M::Real::ZERO
+        }
+    }
+}
+
+impl<M: Memory> Factor<M> {
+    /// From here on [`Factor::defer_diagonal`] may be used, where the memory has room for A.
+    pub(crate) fn start_deferring(&mut self) {
+        self.deferred = Deferred::zeros(self.memory);
+    }
+
+    /// Whether it may be used.
+    #[inline(always)]
+    pub(crate) fn is_deferring(&self) -> bool {
+        !self.deferred.is_none()
+    }
+
+    /// P ← P + diag(q), q ≥ 0, in A; uses n numbers `work`. O(n²).
+    ///
+    /// Call [`Factor::reserve`] first.
+    pub(crate) fn defer_diagonal(&mut self, q: impl Fn(usize) -> M::Real, work: &mut [M::Real]) {
+        let n = M::Real::from_f64(self.parameters() as f64);
+        let (large, too_large) = (M::Real::from_f64(LARGE) * n, M::Real::from_f64(TOO_LARGE) * n);
+        let stride = self.deferred.stride();
+        let (mut due, mut all) = (None, false);
+        for (i, row) in self.deferred.matrix.as_mut().chunks_exact_mut(stride).enumerate() {
+            let added = q(i);
+            row[i] += added;
+            if row[i] > large * added {
+                due = due.or(Some(i));
+                all |= row[i] > too_large * added;
+            }
+        }
+        match due {
+            Some(_) if all => self.settle(work),
+            Some(i) => self.settle_one(i, work),
+            None => {}
+        }
+    }
+
+    /// Moves the part of A along n numbers `f` to U D Uᵀ; uses n numbers `a`. O(n²).
+    #[inline]
+    pub(crate) fn expose(&mut self, f: &[M::Real], a: &mut [M::Real]) {
+        if !self.deferred.is_none() {
+            self.expose_along(f, a);
+        }
+    }
+
+    fn expose_along(&mut self, f: &[M::Real], a: &mut [M::Real]) {
+        symmetric_multiply(self.deferred.matrix.as_ref(), f, a);
+        let along = self.deferred.along(dot(f, a), f);
+        if along > M::Real::ZERO {
+            self.move_dyad(a, along);
+        }
+    }
+
+    /// The same along parameter i, of which A_ii > 0; uses n numbers `a`.
+    fn settle_one(&mut self, i: usize, a: &mut [M::Real]) {
+        a.copy_from_slice(self.deferred.row(i));
+        self.move_dyad(a, self.deferred.variance(i));
+        self.deferred.clear(i);
+    }
+
+    /// U D Uᵀ ← U D Uᵀ + a aᵀ/`along`, A ← A − a aᵀ/`along`, for `along` > 0.
+    ///
+    /// A is positive semidefinite, so that a_j² ≤ `along` A_jj: what is far more than that is rounding, and so is
+    /// what is left of an element of the diagonal that becomes as small as its rounding was.
+    fn move_dyad(&mut self, a: &mut [M::Real], along: M::Real) {
+        let (deviation, two) = (along.sqrt(), M::Real::from_f64(2.0));
+        for (a, variance) in a.iter_mut().zip(self.deferred.variances()) {
+            *a = if *a * *a <= two * along * variance { *a / deviation } else { M::Real::ZERO };
+        }
+        symmetric_subtract(self.deferred.matrix.as_mut(), a);
+        let rounding = M::Real::EPSILON * M::Real::from_f64(a.len() as f64);
+        for (j, &a) in a.iter().enumerate() {
+            if self.deferred.variance(j) < rounding * a * a {
+                self.deferred.clear(j);
+            }
+        }
+        self.add_covariance(a, M::Real::ONE);
+    }
+
+    /// Moves all of A to U D Uᵀ; uses n numbers `work`. O(n³).
+    pub(crate) fn settle(&mut self, work: &mut [M::Real]) {
+        if self.deferred.is_none() {
+            return;
+        }
+        for i in 0..self.parameters() {
+            if self.deferred.variance(i) > M::Real::ZERO {
+                self.settle_one(i, work);
+            }
+        }
+        self.deferred.matrix.as_mut().fill(M::Real::ZERO);
+    }
+
+    /// Subtracts what is deferred from n x n numbers.
+    pub(crate) fn subtract_deferred(&self, dense: &mut [M::Real]) {
+        self.deferred.add_to(dense, -M::Real::ONE);
+    }
+
+    /// The same P with all of it in U D Uᵀ. O(n³) where something was deferred.
+    #[must_use]
+    pub fn settled(&self) -> Self {
+        let mut factor = self.clone();
+        factor.settle(self.memory.vector().as_mut());
+        factor.deferred = Deferred::none(self.memory);
+        factor
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Factor;
+    use crate::memory::Dynamic;
+    use alloc::vec;
+    use alloc::vec::Vec;
+    use forgetting_kernels::Kernels;
+
+    /// Numbers in (−1, 1), the same each time.
+    struct Random(u64);
+
+    impl Random {
+        fn next(&mut self) -> f64 {
+            self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        }
+    }
+
+    /// P as dense numbers of 64 bits: P ← P + diag(q), then P ← P − g gᵀ/(1 + f g) with g = P fᵀ.
+    struct Dense(Vec<f64>, usize);
+
+    impl Dense {
+        fn step(&mut self, q: &[f64], f: &[f64]) {
+            let n = self.1;
+            (0..n).for_each(|i| self.0[i * n + i] += q[i]);
+            let g: Vec<f64> = self.0.chunks(n).map(|row| sum(row, f)).collect();
+            let variance = 1.0 + sum(&g, f);
+            for (k, p) in self.0.iter_mut().enumerate() {
+                *p -= g[k / n] * g[k % n] / variance;
+            }
+        }
+    }
+
+    fn sum(a: &[f64], b: &[f64]) -> f64 {
+        a.iter().zip(b).map(|(a, b)| a * b).sum()
+    }
+
+    fn deferring<T: Kernels>(n: usize) -> Factor<Dynamic<T>> {
+        let mut factor = Factor::scalar(Dynamic::new(n, 1, 1).unwrap(), T::ONE).unwrap();
+        factor.start_deferring();
+        factor
+    }
+
+    /// The largest difference of P from `dense`, each element over the standard deviations of its two
+    /// parameters.
+    fn distance<T: Kernels>(factor: &Factor<Dynamic<T>>, dense: &Dense) -> f64 {
+        let n = dense.1;
+        let mut own = vec![T::ZERO; n * n];
+        factor.reconstruct(&mut own);
+        let variance = |i: usize| dense.0[i * n + i];
+        (0..n * n).fold(0.0, |most, k| {
+            let scale = (variance(k / n) * variance(k % n)).sqrt();
+            most.max((own[k].to_f64() - dense.0[k]).abs() / scale)
+        })
+    }
+
+    /// 300 samples of which some are silent, with parameters in units that are `ratio` times one another at most.
+    fn is_exact<T: Kernels>(n: usize, ratio: f64, tolerance: f64) {
+        let mut random = Random(n as u64);
+        let unit: Vec<f64> = (0..n).map(|i| ratio.powf(i as f64 / n as f64 - 0.5)).collect();
+        let q: Vec<f64> = unit.iter().map(|s| 0.01 * s * s).collect();
+        let (mut factor, mut dense) = (deferring::<T>(n), Dense(vec![0.0; n * n], n));
+        let scale: Vec<T> = unit.iter().map(|&s| T::from_f64(s)).collect();
+        factor.scale_each(&scale);
+        (0..n).for_each(|i| dense.0[i * n + i] = unit[i] * unit[i]);
+        let (mut work, mut gain) = (vec![T::ZERO; n], vec![T::ZERO; n]);
+        for k in 0..300 {
+            let silent = (100..100 + 6 * n).contains(&k) || k % 7 == 0;
+            let f: Vec<f64> = unit
+                .iter()
+                .map(|s| if silent { 0.0 } else { T::from_f64(random.next() / s).to_f64() })
+                .collect();
+            // once a long gap
+            let steps = if k == 200 { 1e4 } else { 1.0 };
+            let added: Vec<f64> = q.iter().map(|q| T::from_f64(q * steps).to_f64()).collect();
+            factor.reserve(T::ONE, T::from_f64(added.iter().sum())).unwrap();
+            factor.defer_diagonal(|i| T::from_f64(added[i]), &mut work);
+            let own: Vec<T> = f.iter().map(|&f| T::from_f64(f)).collect();
+            factor.add_information(&own, &mut gain);
+            dense.step(&added, &f);
+            let far = distance(&factor, &dense);
+            assert!(far < tolerance, "{n} {ratio} {k}: {far}");
+            assert!(factor.is_sound(), "{n} {ratio} {k}");
+            let most = q.iter().enumerate().map(|(i, q)| factor.deferred.variance(i).to_f64() / q);
+            let most = most.fold(0.0, f64::max);
+            assert!(k >= 200 || most <= 5.0 * n as f64 + 1.0, "{n} {k}: {most}");
+        }
+        let settled = factor.settled();
+        assert!(!settled.is_deferring() && distance(&settled, &dense) < tolerance);
+    }
+
+    #[test]
+    fn what_is_deferred_is_added_exactly() {
+        for n in [2, 3, 8, 11, 16, 17, 24] {
+            for ratio in [1.0, 1e6, 1e12] {
+                is_exact::<f64>(n, ratio, 1e-11);
+                is_exact::<f32>(n, ratio, 1e-3);
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_along_what_was_exposed_is_left() {
+        let n = 12;
+        let (mut factor, mut random) = (deferring::<f64>(n), Random(1));
+        let (mut work, mut a) = (vec![0.0; n], vec![0.0; n]);
+        factor.defer_diagonal(|i| 1.0 + i as f64, &mut work);
+        let before = factor.settled();
+        for _ in 0..2 * n {
+            let f: Vec<f64> = (0..n).map(|_| random.next()).collect();
+            factor.expose(&f, &mut a);
+            assert!(factor.deferred.leverage(&f).abs() < 1e-13);
+            // again, and along it: nothing is left to move
+            factor.expose(&f, &mut a);
+        }
+        let (mut own, mut expected) = (vec![0.0; n * n], vec![0.0; n * n]);
+        factor.reconstruct(&mut own);
+        before.reconstruct(&mut expected);
+        assert!(own.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 1e-12));
+        assert!(factor.is_sound() && factor.deferred.trace() < 1e-11);
+    }
+}
