@@ -29,6 +29,7 @@ impl<M: Memory> Factor<M> {
         for j in 0..self.parameters() {
             self.put_diagonal(j, self.diagonal.as_ref()[j] / before * trace);
         }
+        self.deferred.scale(trace / before);
         self.tighten();
     }
 

@@ -171,7 +171,7 @@ impl<M: Memory> Weakest<M> {
         }
         before.copy_from_slice(self.axis.as_ref());
         let (axis, least) = (self.axis.as_mut(), self.least.as_ref());
-        iterate_axis(factor, (axis, before, least), direction, samples);
+        iterate_axis(factor, axis, [before, least], direction, samples);
         for ((u, &x), &least) in direction.iter_mut().zip(axis.iter()).zip(least) {
             *u = x / least;
         }
@@ -216,7 +216,8 @@ impl<M: Memory> State<M::Real> for Weakest<M> {
 /// S w ← S P̃ w / ‖P̃ w‖ = P S⁻¹w / ‖S⁻¹P S⁻¹w‖ in `axis`, which is `before`; uses `work`.
 fn iterate_axis<M: Memory>(
     factor: &Factor<M>,
-    (axis, before, least): (&mut [M::Real], &[M::Real], &[M::Real]),
+    axis: &mut [M::Real],
+    [before, least]: [&[M::Real]; 2],
     work: &mut [M::Real],
     samples: u64,
 ) {

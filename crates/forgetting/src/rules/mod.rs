@@ -108,7 +108,7 @@ pub trait Forgetting<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
         false
     }
 
-    /// Whether the rule adds to P by [`Factor::defer_diagonal`], which then must be possible.
+    /// Whether the rule adds to P by [`Factor::defer_diagonal`] where that is possible.
     fn defers(&self) -> bool {
         false
     }
