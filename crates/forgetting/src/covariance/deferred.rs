@@ -36,80 +36,66 @@ const TOO_LARGE: f64 = 8.0;
 
 /// A, with all its numbers; nothing where all of P is in U D Uᵀ.
 #[derive(Clone, Debug)]
-pub(super) struct Deferred<M: Memory> {
-    memory: M,
-    matrix: M::Optional,
-}
+pub(super) struct Deferred<M: Memory>(M::Optional);
 
 impl<M: Memory> Deferred<M> {
     /// Nothing.
     pub fn none(memory: M) -> Self {
-        Self { memory, matrix: memory.optional(0) }
+        Self(memory.optional(0))
     }
 
     /// A = 0, or nothing in a memory that has no room for it.
     fn zeros(memory: M) -> Self {
         let n = memory.parameters();
-        Self { memory, matrix: memory.optional(n * stride::<M::Real>(n)) }
+        Self(memory.optional(n * stride::<M::Real>(n)))
     }
 
     #[inline(always)]
     pub fn is_none(&self) -> bool {
-        self.matrix.as_ref().is_empty()
+        self.0.as_ref().is_empty()
     }
 
-    #[inline(always)]
-    fn stride(&self) -> usize {
-        stride::<M::Real>(self.memory.parameters())
+    /// The `n` numbers of row i.
+    fn row(&self, i: usize, n: usize) -> &[M::Real] {
+        &self.0.as_ref()[i * stride::<M::Real>(n)..][..n]
     }
 
-    /// The n numbers of row i.
-    fn row(&self, i: usize) -> &[M::Real] {
-        &self.matrix.as_ref()[i * self.stride()..][..self.memory.parameters()]
-    }
-
-    /// A_ii, 0 where there is no A.
+    /// The diagonal, of `n` elements; none where there is no A.
     #[inline]
-    fn variance(&self, i: usize) -> M::Real {
-        let place = i * (self.stride() + 1);
-        self.matrix.as_ref().get(place).copied().unwrap_or(M::Real::ZERO)
+    fn variances(&self, n: usize) -> impl Iterator<Item = M::Real> + '_ {
+        self.0.as_ref().iter().step_by(stride::<M::Real>(n) + 1).copied()
     }
 
-    /// The elements of the diagonal.
-    fn variances(&self) -> impl Iterator<Item = M::Real> + '_ {
-        (0..self.memory.parameters()).map(|i| self.variance(i))
-    }
-
-    /// The largest of them.
-    pub fn largest(&self) -> M::Real {
-        self.variances().fold(M::Real::ZERO, M::Real::max)
+    /// The largest element of the diagonal, 0 where there is no A.
+    pub fn largest(&self, n: usize) -> M::Real {
+        self.variances(n).fold(M::Real::ZERO, M::Real::max)
     }
 
     /// Σ_i A_ii
-    pub fn trace(&self) -> M::Real {
-        self.variances().fold(M::Real::ZERO, |sum, x| sum + x)
+    pub fn trace(&self, n: usize) -> M::Real {
+        self.variances(n).fold(M::Real::ZERO, |sum, x| sum + x)
     }
 
     /// A ← c A
     #[inline]
     pub fn scale(&mut self, c: M::Real) {
         if c != M::Real::ONE && !self.is_none() {
-            scale(self.matrix.as_mut(), c);
+            scale(self.0.as_mut(), c);
         }
     }
 
     /// A ← S A S with S = diag(`scale`).
     pub fn scale_each(&mut self, scale: &[M::Real]) {
-        let (n, stride) = (self.memory.parameters(), self.stride());
-        for (row, &s) in self.matrix.as_mut().chunks_exact_mut(stride).zip(scale) {
-            row[..n].iter_mut().zip(scale).for_each(|(x, &t)| *x *= s * t);
+        let stride = stride::<M::Real>(scale.len());
+        for (row, &s) in self.0.as_mut().chunks_exact_mut(stride).zip(scale) {
+            row.iter_mut().zip(scale).for_each(|(x, &t)| *x *= s * t);
         }
     }
 
     /// `x` ← `x` + A·`f`
     pub fn add_product(&self, f: &[M::Real], x: &mut [M::Real]) {
         if !self.is_none() {
-            f.iter().enumerate().for_each(|(i, &f)| add_scaled(x, f, self.row(i)));
+            f.iter().enumerate().for_each(|(i, &f)| add_scaled(x, f, self.row(i, x.len())));
         }
     }
 
@@ -118,43 +104,41 @@ impl<M: Memory> Deferred<M> {
         if self.is_none() {
             return M::Real::ZERO;
         }
-        let rows = (0..f.len()).map(|i| f[i] * dot(self.row(i), f));
+        let n = f.len();
+        let rows = (0..n).map(|i| f[i] * dot(self.row(i, n), f));
         self.along(rows.fold(M::Real::ZERO, |sum, x| sum + x), f)
     }
 
-    /// Adds c A to n x n numbers.
-    pub fn add_to(&self, dense: &mut [M::Real], c: M::Real) {
+    /// Adds c A to `n` x `n` numbers.
+    pub fn add_to(&self, dense: &mut [M::Real], n: usize, c: M::Real) {
         if !self.is_none() {
-            let n = self.memory.parameters();
             for (i, numbers) in dense.chunks_exact_mut(n).enumerate() {
-                add_scaled(numbers, c, self.row(i));
+                add_scaled(numbers, c, self.row(i, n));
             }
         }
     }
 
     /// Adds the elements of the diagonal to n numbers.
     pub fn add_variances(&self, variances: &mut [M::Real]) {
-        if !self.is_none() {
-            variances.iter_mut().zip(self.variances()).for_each(|(sum, x)| *sum += x);
-        }
+        let n = variances.len();
+        variances.iter_mut().zip(self.variances(n)).for_each(|(sum, x)| *sum += x);
     }
 
     /// A ← that of `other`.
     pub fn copy_from(&mut self, other: &Self) {
-        if self.matrix.as_ref().len() == other.matrix.as_ref().len() {
-            self.matrix.as_mut().copy_from_slice(other.matrix.as_ref());
+        if self.0.as_ref().len() == other.0.as_ref().len() {
+            self.0.as_mut().copy_from_slice(other.0.as_ref());
         } else {
-            self.matrix = other.matrix.clone();
+            self.0 = other.0.clone();
         }
     }
 
     /// Shows the upper triangle to `visitor`.
-    pub fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
+    pub fn visit(&mut self, n: usize, visitor: &mut dyn Visitor<M::Real>) {
         if self.is_none() {
             return;
         }
-        let (n, stride) = (self.memory.parameters(), self.stride());
-        let matrix = self.matrix.as_mut();
+        let (matrix, stride) = (self.0.as_mut(), stride::<M::Real>(n));
         for i in 0..n {
             visitor.reals(&mut matrix[i * stride + i..i * stride + n]);
             for j in i + 1..n {
@@ -164,25 +148,21 @@ impl<M: Memory> Deferred<M> {
     }
 
     /// Whether all elements are in range, and none on the diagonal negative.
-    pub fn is_sound(&self) -> bool {
-        if self.is_none() {
-            return true;
-        }
-        self.variances().all(|x| x >= M::Real::ZERO)
-            && self.matrix.as_ref().iter().all(|x| x.abs() <= M::Real::CEILING)
+    pub fn is_sound(&self, n: usize) -> bool {
+        self.variances(n).all(|x| x >= M::Real::ZERO)
+            && self.0.as_ref().iter().all(|x| x.abs() <= M::Real::CEILING)
     }
 
     /// A_ij ← 0 and A_ji ← 0 for all j.
-    fn clear(&mut self, i: usize) {
-        let stride = self.stride();
-        let matrix = self.matrix.as_mut();
+    fn clear(&mut self, i: usize, n: usize) {
+        let (matrix, stride) = (self.0.as_mut(), stride::<M::Real>(n));
         matrix[i * stride..(i + 1) * stride].fill(M::Real::ZERO);
         matrix.iter_mut().skip(i).step_by(stride).for_each(|x| *x = M::Real::ZERO);
     }
 
     /// f·A·fᵀ, of which this is a sum: nothing where that is no more than rounding.
     fn along(&self, sum: M::Real, f: &[M::Real]) -> M::Real {
-        let parts = f.iter().zip(self.variances());
+        let parts = f.iter().zip(self.variances(f.len()));
         let spread = parts.fold(M::Real::ZERO, |sum, (&f, x)| sum + f * f * x);
         let rounding = M::Real::EPSILON * M::Real::from_f64(f.len() as f64) * spread;
         if sum > rounding {
@@ -212,11 +192,11 @@ impl<M: Memory> Factor<M> {
     ///
     /// Call [`Factor::reserve`] first.
     pub(crate) fn defer_diagonal(&mut self, q: impl Fn(usize) -> M::Real, work: &mut [M::Real]) {
-        let n = M::Real::from_f64(self.parameters() as f64);
-        let (large, too_large) = (M::Real::from_f64(LARGE) * n, M::Real::from_f64(TOO_LARGE) * n);
-        let stride = self.deferred.stride();
+        let (n, stride) = (self.parameters(), stride::<M::Real>(self.parameters()));
+        let [large, too_large] =
+            [LARGE, TOO_LARGE].map(|times| M::Real::from_f64(times * n as f64));
         let (mut due, mut all) = (None, false);
-        for (i, row) in self.deferred.matrix.as_mut().chunks_exact_mut(stride).enumerate() {
+        for (i, row) in self.deferred.0.as_mut().chunks_exact_mut(stride).enumerate() {
             let added = q(i);
             row[i] += added;
             if row[i] > large * added {
@@ -240,7 +220,7 @@ impl<M: Memory> Factor<M> {
     }
 
     fn expose_along(&mut self, f: &[M::Real], a: &mut [M::Real]) {
-        symmetric_multiply(self.deferred.matrix.as_ref(), f, a);
+        symmetric_multiply(self.deferred.0.as_ref(), f, a);
         let along = self.deferred.along(dot(f, a), f);
         if along > M::Real::ZERO {
             self.move_dyad(a, along);
@@ -249,9 +229,10 @@ impl<M: Memory> Factor<M> {
 
     /// The same along parameter i, of which A_ii > 0; uses n numbers `a`.
     fn settle_one(&mut self, i: usize, a: &mut [M::Real]) {
-        a.copy_from_slice(self.deferred.row(i));
-        self.move_dyad(a, self.deferred.variance(i));
-        self.deferred.clear(i);
+        let n = self.parameters();
+        a.copy_from_slice(self.deferred.row(i, n));
+        self.move_dyad(a, self.deferred.row(i, n)[i]);
+        self.deferred.clear(i, n);
     }
 
     /// U D Uᵀ ← U D Uᵀ + a aᵀ/`along`, A ← A − a aᵀ/`along`, for `along` > 0.
@@ -259,15 +240,15 @@ impl<M: Memory> Factor<M> {
     /// A is positive semidefinite, so that a_j² ≤ `along` A_jj: what is far more than that is rounding, and so is
     /// what is left of an element of the diagonal that becomes as small as its rounding was.
     fn move_dyad(&mut self, a: &mut [M::Real], along: M::Real) {
-        let (deviation, two) = (along.sqrt(), M::Real::from_f64(2.0));
-        for (a, variance) in a.iter_mut().zip(self.deferred.variances()) {
+        let (n, deviation, two) = (a.len(), along.sqrt(), M::Real::from_f64(2.0));
+        for (a, variance) in a.iter_mut().zip(self.deferred.variances(n)) {
             *a = if *a * *a <= two * along * variance { *a / deviation } else { M::Real::ZERO };
         }
-        symmetric_subtract(self.deferred.matrix.as_mut(), a);
-        let rounding = M::Real::EPSILON * M::Real::from_f64(a.len() as f64);
+        symmetric_subtract(self.deferred.0.as_mut(), a);
+        let rounding = M::Real::EPSILON * M::Real::from_f64(n as f64);
         for (j, &a) in a.iter().enumerate() {
-            if self.deferred.variance(j) < rounding * a * a {
-                self.deferred.clear(j);
+            if self.deferred.row(j, n)[j] < rounding * a * a {
+                self.deferred.clear(j, n);
             }
         }
         self.add_covariance(a, M::Real::ONE);
@@ -278,17 +259,18 @@ impl<M: Memory> Factor<M> {
         if self.deferred.is_none() {
             return;
         }
-        for i in 0..self.parameters() {
-            if self.deferred.variance(i) > M::Real::ZERO {
+        let n = self.parameters();
+        for i in 0..n {
+            if self.deferred.row(i, n)[i] > M::Real::ZERO {
                 self.settle_one(i, work);
             }
         }
-        self.deferred.matrix.as_mut().fill(M::Real::ZERO);
+        self.deferred.0.as_mut().fill(M::Real::ZERO);
     }
 
     /// Subtracts what is deferred from n x n numbers.
     pub(crate) fn subtract_deferred(&self, dense: &mut [M::Real]) {
-        self.deferred.add_to(dense, -M::Real::ONE);
+        self.deferred.add_to(dense, self.parameters(), -M::Real::ONE);
     }
 
     /// The same P with all of it in U D Uᵀ. O(n³) where something was deferred.

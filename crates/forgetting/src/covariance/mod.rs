@@ -99,7 +99,7 @@ impl<M: Memory> Factor<M> {
             && self.trace() <= n * M::Real::CEILING
             && layout::is_unit_triangular(self.columns.as_ref(), self.parameters())
             && self.trace_bound.is_finite()
-            && self.deferred.is_sound()
+            && self.deferred.is_sound(self.parameters())
     }
 
     /// Recomputes the bound of P's trace where the one that was read cannot be a bound.
@@ -138,7 +138,7 @@ impl<M: Memory> Factor<M> {
     /// one direction dominates. The same of what is deferred.
     #[inline(always)]
     pub fn largest(&self) -> M::Real {
-        let deferred = self.deferred.largest();
+        let deferred = self.deferred.largest(self.parameters());
         self.diagonal.as_ref().iter().fold(deferred, |largest, &d| largest.max(d))
     }
 
@@ -147,7 +147,7 @@ impl<M: Memory> Factor<M> {
     pub(crate) fn exceeds(&self, limit: M::Real) -> bool {
         // without a branch in the loop
         let any = self.diagonal.as_ref().iter().fold(false, |any, &d| any | (d > limit));
-        any || self.is_deferring() && self.deferred.largest() > limit
+        any || self.deferred.largest(self.parameters()) > limit
     }
 
     /// The smallest element of D: at least the smallest eigenvalue of P. Where something is deferred that of
@@ -177,7 +177,8 @@ impl<M: Memory> Factor<M> {
 
     /// The trace of P, O(n²).
     pub fn trace(&self) -> M::Real {
-        trace(self.columns.as_ref(), self.diagonal.as_ref()) + self.deferred.trace()
+        trace(self.columns.as_ref(), self.diagonal.as_ref())
+            + self.deferred.trace(self.parameters())
     }
 
     /// P as n x n numbers, written to `dense` (of n² elements, else left alone). O(n³/3).
@@ -209,7 +210,7 @@ impl<M: Memory> Factor<M> {
             }
             row[i] = own;
         }
-        self.deferred.add_to(dense, M::Real::ONE);
+        self.deferred.add_to(dense, n, M::Real::ONE);
     }
 
     /// The diagonal of P, written to `variances` (n elements), O(n²).
@@ -239,7 +240,7 @@ impl<M: Memory> Factor<M> {
     pub fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
         visit_columns(self.columns.as_mut(), self.memory.parameters(), visitor);
         visitor.reals(self.diagonal.as_mut());
-        self.deferred.visit(visitor);
+        self.deferred.visit(self.memory.parameters(), visitor);
         visitor.reals(core::slice::from_mut(&mut self.trace_bound));
     }
 }
