@@ -1,4 +1,4 @@
-"""Every rule, one row, and what is told nothing: time of a sample over that of exponential forgetting."""
+"""Time of a sample over that of exponential forgetting: every rule, and what is told nothing."""
 
 from __future__ import annotations
 
