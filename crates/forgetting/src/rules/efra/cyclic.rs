@@ -39,7 +39,8 @@ mod tests {
         let all = Efra::new(0.5, 0.02, 0.01).unwrap();
         let turns = all.cyclic();
         for start in [Dense::new(3, &[1.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 9.0]), covariance()] {
-            let diagonal = |k: usize| if k % 4 == 0 { start.elements[k] } else { 0.0 };
+            let is_diagonal = |k: usize| k.is_multiple_of(4);
+            let diagonal = |k: usize| if is_diagonal(k) { start.elements[k] } else { 0.0 };
             let mut expected = Dense::new(3, &core::array::from_fn::<_, 9, _>(diagonal));
             // what the first sample adds is added by the second
             let (mut pending, mut cycle) = (all.start(m), turns.start(m));
@@ -50,7 +51,8 @@ mod tests {
                 p = forget(&turns, &mut cycle, &p, &silence, 0.9).covariance;
             }
             for k in 0..9 {
-                let expected = if k % 4 == 0 { expected.elements[k] } else { start.elements[k] };
+                let expected =
+                    if is_diagonal(k) { expected.elements[k] } else { start.elements[k] };
                 assert!((p.elements[k] - expected).abs() < 1e-14, "{k}");
             }
         }
