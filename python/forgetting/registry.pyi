@@ -531,27 +531,39 @@ class Efra(Rule):
     P_k+1 = P₊ + Σ_i max(0, g p_i + b − d p_i²) v_i v_iᵀ      this noise, then a dyad for each
                                                               eigenpair (p_i, v_i) of P_k;
                                                               g = (1 − λ_k)/λ_k
+    P̄ = P + (p_n − P_ii) e_i e_iᵀ,  i = k mod n,  p_0 = P_ii   cyclic: one parameter a sample, for n
+    p_j+1 = p_j + max(0, g p_j + b − d p_j²)                  samples; then Γ_k, s = φ̄ P̄ φ̄ᵀ
     ```
 
     The covariance that the estimator shows is P₊, after the data; what a sample adds to P is
-    added when the next one comes. The published map has no max: it is the same while
-    P ≤ σ_max I, σ_max = g/(2d)·(1 + √(1 + 4bd/g²)), which P₀ ≤ σ_max I guarantees for a constant λ
-    with g² + 4bd ≤ 1. λ_k = 1 is plain least squares, a, b and d left out.
+    added when the next one comes. The cyclic schedule forgets first and then measures. The published
+    map has no max: it is the same while P ≤ σ_max I, σ_max = g/(2d)·(1 + √(1 + 4bd/g²)), which
+    P₀ ≤ σ_max I guarantees for a constant λ with g² + 4bd ≤ 1. λ_k = 1 is plain least squares, a, b
+    and d left out.
 
     | symbol | name | range | default |
     |---|---|---|---|
     | a | gain | (0, 1] | 0.5 |
     | b | increase | [0, ∞) | 0.005 |
     | d | saturation | (0, ∞) | 0.0001 |
+    | | schedule | "every_sample" adds along each eigenvector at each sample, "cyclic" along one parameter | "every_sample" |
 
     - Proper (A1): always.
     - P̄ bounded above without excitation (A2): if λ_k ≥ λ_min > 0, by the larger of P₀ and
-      b + (1 + g)²/(4d); by σ_max where the published map applies. Silence takes P to σ_max I.
-    - P bounded below (A3): if λ_k ≤ λ_max < 1 and φ is bounded.
+      b + (1 + g)²/(4d), g of λ_min, the most that p + g p + b − d p² can be; where g² + 4bd ≤ 1 by
+      σ_max in its place. Silence takes P to σ_max I. Cyclic: this bounds every P_ii, and P by n times
+      it, as P ≤ tr(P) I; silence takes every P_ii to σ_max and leaves the rest of P as it is.
+    - P bounded below (A3): if λ_k ≤ λ_max < 1 and φ is bounded, but not for the cyclic schedule: where
+      two elements of φ are equal at all samples, both variances go to σ_max, and what is known of the
+      sum of the two parameters is forgotten no more.
     - Cost: O(n³). State: P, n eigenvectors and 2 n numbers. The eigenvectors follow P from sample to
-      sample; after one that a gate freezes they are computed anew.
+      sample; after one that a gate freezes they are computed anew. Cyclic O(n²). State: P, and whose
+      turn it is.
     - Use it for one output, where P must stay below a bound that is stated beforehand, with
-      P₀ at or below it.
+      P₀ at or below it. Use the cyclic schedule where n is large. It forgets along the parameters,
+      where the published map forgets alike in any basis; a diagonal P is after a cycle in silence what
+      n samples of the other make of it. k counts the samples used.
+    - Not with the cyclic schedule where two regressors are equal, or opposite, at almost all samples.
 
     Reference: M. E. Salgado, G. C. Goodwin, R. H. Middleton, *Modified least squares algorithm
     incorporating exponential resetting and forgetting*, International Journal of Control 47,
@@ -566,6 +578,7 @@ class Efra(Rule):
         gain: float = 0.5,
         increase: float = 0.005,
         saturation: float = 0.0001,
+        schedule: Literal["every_sample", "cyclic"] = "every_sample",
         *,
         half_life: Any = None,
     ) -> None: ...

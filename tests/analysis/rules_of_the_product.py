@@ -99,7 +99,10 @@ def _proper(n):
             Setting(fg.MatrixForgetting(0.9, information=0.1)),
             Setting(fg.MatrixForgetting(0.9, information=0.1, power=3)),
         ],
-        "efra": [Setting(fg.Efra(0.9, gain=GAIN, increase=0.005, saturation=0.01), rows=1)],
+        "efra": [
+            Setting(fg.Efra(0.9, GAIN, 0.005, 0.01, schedule), rows=1)
+            for schedule in ("every_sample", "cyclic")
+        ],
         "multiple": [Setting(fg.Multiple(0.9), axes=True)],
         "custom": [Setting(fg.Custom(lambda r, phi, error: 0.1 * r))],
         "covariance_resetting": [

@@ -15,6 +15,7 @@ class Step:
 
     ``information`` is the R_k of Theorem 1 and ``covariance`` its inverse. ``own`` is the
     algorithm's covariance P_k: the same, except for rules that measure first and forget afterwards.
+    ``forgets`` is False where P has been replaced, and nothing is forgotten beside.
     """
 
     k: int
@@ -24,6 +25,7 @@ class Step:
     phi: Matrix
     error: Matrix
     factor: Real
+    forgets: bool = True
 
     @cached_property
     def spread(self) -> Matrix:

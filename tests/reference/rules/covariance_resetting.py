@@ -57,7 +57,11 @@ class Dense(Rule):
         if not self.reset:
             return step
         return replace(
-            step, information=inverse(self.target), covariance=self.target, own=self.target
+            step,
+            information=inverse(self.target),
+            covariance=self.target,
+            own=self.target,
+            forgets=False,
         )
 
     def measurement(self, step: Step, y: Matrix) -> Measurement:

@@ -66,6 +66,11 @@ impl<M: Memory> Deferred<M> {
         self.0.as_ref().iter().step_by(stride::<M::Real>(n) + 1).copied()
     }
 
+    /// A_ii, 0 where there is no A.
+    pub fn variance(&self, i: usize, n: usize) -> M::Real {
+        self.variances(n).nth(i).unwrap_or(M::Real::ZERO)
+    }
+
     /// The largest element of the diagonal, 0 where there is no A.
     pub fn largest(&self, n: usize) -> M::Real {
         self.variances(n).fold(M::Real::ZERO, M::Real::max)

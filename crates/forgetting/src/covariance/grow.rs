@@ -67,15 +67,24 @@ impl<M: Memory> Factor<M> {
         }
     }
 
+    /// P ← P + c·e_i·e_iᵀ with c ≥ 0; uses i + 1 numbers `x`. O(i²).
+    ///
+    /// Call [`Factor::reserve`] first.
+    #[inline]
+    pub fn add_variance(&mut self, i: usize, c: M::Real, x: &mut [M::Real]) {
+        let x = &mut x[..=i];
+        x.fill(M::Real::ZERO);
+        x[i] = M::Real::ONE;
+        functions::agee_turner(self.columns.as_mut(), &mut self.diagonal.as_mut()[..=i], x, c);
+    }
+
     /// P ← P + diag(`variances`), each ≥ 0. O(n³/3): one dyad per element that is not 0.
     ///
     /// Call [`Factor::reserve`] first.
     pub fn add_diagonal(&mut self, variances: &[M::Real], work: &mut [M::Real]) {
         for (i, &variance) in variances.iter().enumerate() {
             if variance > M::Real::ZERO {
-                work.fill(M::Real::ZERO);
-                work[i] = M::Real::ONE;
-                self.add_covariance(work, variance);
+                self.add_variance(i, variance, work);
             }
         }
     }

@@ -213,6 +213,15 @@ impl<M: Memory> Factor<M> {
         self.deferred.add_to(dense, n, M::Real::ONE);
     }
 
+    /// P_ii, O(n).
+    pub fn variance(&self, i: usize) -> M::Real {
+        let own = self.diagonal.as_ref()[i] + self.deferred.variance(i, self.parameters());
+        (i + 1..self.parameters()).fold(own, |sum, k| {
+            let u = self.unit(i, k);
+            sum + u * u * self.diagonal.as_ref()[k]
+        })
+    }
+
     /// The diagonal of P, written to `variances` (n elements), O(n²).
     pub fn variances(&self, variances: &mut [M::Real]) {
         let (columns, diagonal) = (self.columns.as_ref(), self.diagonal.as_ref());

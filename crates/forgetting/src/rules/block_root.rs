@@ -60,6 +60,9 @@ impl<M: Memory> BlockRoot<M> {
         weight: M::Real,
         direction: &mut [M::Real],
     ) {
+        if range.len() == 1 {
+            return factor.add_variance(range.start, weight * self.diagonal.as_ref()[0], direction);
+        }
         for (j, &d) in self.diagonal.as_ref()[..range.len()].iter().enumerate() {
             direction.fill(M::Real::ZERO);
             layout::get_column(self.columns.as_ref(), j, &mut direction[range.start..]);
