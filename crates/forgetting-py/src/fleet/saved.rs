@@ -53,8 +53,10 @@ impl Fleet {
         Ok((slf.getattr("_of_states")?, (states.remove(0).into_any(), each)))
     }
 
-    fn __copy__(&self, py: Python<'_>) -> PyResult<Self> {
-        Ok(Self::of(self.fleet.lock(py)?.clone()))
+    pub(super) fn __copy__(&self, py: Python<'_>) -> PyResult<Self> {
+        let held = self.fleet.lock(py)?;
+        let fleet = &*held;
+        py.detach(|| fleet.copy(&mut heed_signals)).map(Self::of).map_err(raise)
     }
 
     fn __deepcopy__(&self, memo: &Bound<'_, PyAny>) -> PyResult<Self> {
