@@ -54,7 +54,15 @@ MODEL = ("--formula", "V ~ I")
         (("--output", "V", "--model", f"arma:na=1,nc={10**22}"), f"nc is {10**22}; it must be"),
         (
             (*MODEL, "--rule", "exponential", "--initial-covariance", "1e-300"),
-            "initial_covariance[0] = 1e-300, allowed",
+            "initial_covariance[0] = 1e-300, allowed: positive, 3.1e-151 to 3.2e150",
+        ),
+        (
+            (*MODEL, "--rule", "none", "--initial-covariance", "1e25", "--dtype", "float32"),
+            "e24, allowed: positive, 2.2e-19 to 4.6e18",
+        ),
+        (
+            (*MODEL, "--rule", "subspace", "--threshold", "1e300", "--dtype", "float32"),
+            "threshold = 1e300, allowed: within the number type's range",
         ),
     ],
 )

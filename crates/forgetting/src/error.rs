@@ -140,7 +140,7 @@ struct Short(f64);
 impl fmt::Display for Short {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self(x) = *self;
-        match x == 0.0 || !x.is_finite() || (1e-5..1e16).contains(&x.max(-x)) {
+        match x == 0.0 || !x.is_finite() || (1e-5..1e21).contains(&x.max(-x)) {
             true => write!(f, "{x}"),
             false => write!(f, "{x:e}"),
         }

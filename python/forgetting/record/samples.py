@@ -99,7 +99,7 @@ class Samples:
         return step if np.isfinite(step) else None
 
     def check(self) -> Samples:
-        """Refuse infinite regressors, sizes of which nothing can be judged, and no sample at all."""
+        """Refuse infinite regressors, sizes that cannot be judged, and no sample at all."""
         infinite = np.argwhere(np.isinf(self.phi))
         if len(infinite):
             row, column = infinite[0]
