@@ -207,7 +207,7 @@ fn streams_are_put_added_and_reset() {
     assert_eq!(fleet.state(3).unwrap(), learned);
     fleet.reset(None, &mut || Ok(())).unwrap();
     assert_eq!(fleet.state(3).unwrap(), fresh);
-    assert!(fleet.describe().is_none() && fleet.forgetting_factor().is_none());
+    assert!(fleet.describe().is_none() && fleet.forgetting_factor().unwrap().is_none());
 
     let mut refused = |new: Stream| fleet.put(0, new).unwrap_err().to_string();
     let single = Estimator::new(&Settings::new(3)).unwrap();

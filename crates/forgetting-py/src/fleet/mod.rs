@@ -191,7 +191,7 @@ impl Fleet {
     /// The forgetting factor of each stream, (count,); None where it is not constant.
     #[getter]
     fn forgetting_factor(&self, py: Python<'_>) -> PyResult<Option<Py<PyAny>>> {
-        optional(py, self.fleet.lock(py)?.forgetting_factor())
+        optional(py, self.fleet.lock(py)?.forgetting_factor().map_err(raise)?)
     }
 
     /// The estimates, (count, n).

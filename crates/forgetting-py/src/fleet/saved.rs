@@ -2,6 +2,7 @@
 
 use super::Fleet;
 use crate::errors::{heed_signals, raise};
+use crate::pickle::bytes;
 use forgetting_runtime::Error;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyTuple, PyType};
@@ -28,11 +29,11 @@ impl Fleet {
         let fleet = self.fleet.lock(py)?;
         let fresh = std::iter::once_with(|| fleet.fresh_state());
         let streams = (0..fleet.count() as i64).map(|stream| fleet.state(stream));
-        let bytes = |state: Result<Vec<u8>, Error>| {
+        let written = |state: Result<Vec<u8>, Error>| {
             py.check_signals()?;
-            Ok(PyBytes::new(py, &state.map_err(raise)?))
+            bytes(py, &state.map_err(raise)?)
         };
-        fresh.chain(streams).map(bytes).collect()
+        fresh.chain(streams).map(written).collect()
     }
 
     /// The fleet that has these states.

@@ -188,11 +188,14 @@ impl Fleet {
     }
 
     /// λ of each stream, (count,); none where it is not constant.
-    #[must_use]
-    pub fn forgetting_factor(&self) -> Option<Array> {
-        kept!(&self.kept, streams => {
-            streams.forgetting_factor().map(|factors| Number::array(factors, &[streams.count()]))
-        })
+    ///
+    /// # Errors
+    /// [`Error`] says that there is no memory for so many.
+    pub fn forgetting_factor(&self) -> Result<Option<Array>, Error> {
+        Ok(kept!(&self.kept, streams => {
+            let factors = streams.forgetting_factor()?;
+            factors.map(|factors| Number::array(factors, &[streams.count()]))
+        }))
     }
 
     /// θ of each stream, (count, n).

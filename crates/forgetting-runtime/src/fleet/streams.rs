@@ -1,6 +1,7 @@
 //! The streams of a fleet: in blocks of lanes where the rule has a form for it, else an estimator
 //! each.
 
+use super::pieces::room;
 use crate::number::Number;
 use forgetting::fleet::{check_kind, Fleet};
 use forgetting::rates::Rate;
@@ -79,14 +80,22 @@ impl<T: Number> Streams<T> {
     }
 
     /// λ of each stream, if it is constant.
-    pub fn forgetting_factor(&self) -> Option<Vec<T>> {
+    ///
+    /// # Errors
+    /// [`Error::Memory`] when there is none for so many.
+    pub fn forgetting_factor(&self) -> Result<Option<Vec<T>>, Error> {
+        let mut factors = room(self.count(), 1)?;
         match self {
             Self::Blocks(fleet) => {
-                Some((0..fleet.count()).map(|i| fleet.forgetting_factor(i)).collect())
+                factors.extend((0..fleet.count()).map(|i| fleet.forgetting_factor(i)));
             }
             Self::Estimators { each, .. } => {
-                each.iter().map(|stream| stream.rate().constant()).collect()
+                for stream in each {
+                    let Some(factor) = stream.rate().constant() else { return Ok(None) };
+                    factors.push(factor);
+                }
             }
         }
+        Ok(Some(factors))
     }
 }

@@ -155,7 +155,7 @@ impl<T: Number> Banks<T> {
     }
 
     /// None: members of a bank forget each in its way.
-    pub fn forgetting_factor(&self) -> Option<Vec<T>> {
-        None
+    pub fn forgetting_factor(&self) -> Result<Option<Vec<T>>, Error> {
+        Ok(None)
     }
 }
