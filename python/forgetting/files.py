@@ -52,7 +52,8 @@ def whole(path: str | Path) -> Iterator[Path]:
     except BaseException as error:
         with suppress(OSError):
             made.unlink(missing_ok=True)
-        if isinstance(error, OSError) and str(error.filename) == str(made):
+        # a disk that is full does not say for which file
+        if isinstance(error, OSError) and error.errno and error.filename in (None, str(made)):
             error.filename = str(path)
         raise
     finally:

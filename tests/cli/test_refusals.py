@@ -50,6 +50,20 @@ MODEL = ("--formula", "V ~ I")
         ((*MODEL, "--estimates", "o.xlsx"), "--estimates writes .parquet, .csv"),
         ((*MODEL, "--report", "no/such/folder/o.html"), "there is no folder"),
         ((*MODEL, "--frobnicate"), "--frobnicate"),
+        (("--output", "V", "--arx", f"{10**22},0,0"), f"na is {10**22}; it must be a whole number"),
+        (("--output", "V", "--model", f"arma:na=1,nc={10**22}"), f"nc is {10**22}; it must be"),
+        (
+            (*MODEL, "--rule", "exponential", "--initial-covariance", "1e-300"),
+            "initial_covariance[0] = 1e-300, allowed: positive, 3.1e-151 to 3.2e150",
+        ),
+        (
+            (*MODEL, "--rule", "none", "--initial-covariance", "1e25", "--dtype", "float32"),
+            "e24, allowed: positive, 2.2e-19 to 4.6e18",
+        ),
+        (
+            (*MODEL, "--rule", "subspace", "--threshold", "1e300", "--dtype", "float32"),
+            "threshold = 1e300, allowed: within the number type's range",
+        ),
     ],
 )
 def test_bad_use(forgetting, battery, arguments, words):
@@ -70,6 +84,10 @@ def test_bad_use(forgetting, battery, arguments, words):
         ),
         ("I,V\n1,2\n2,inf\n3,6\n", "column 'V' of record.csv is infinite in row 2"),
         ("I,V\n1,\n,4\n", "no complete sample"),
+        ("I,V\n1e-310,1\n2e-310,4\n", "reaches 2e-310 in size, allowed: 0, or 1e-75 to 1e+75"),
+        ("I,V\n1e140,1\n2e140,4\n", "reaches 2e+140 in size, allowed: 0, or 1e-75 to 1e+75"),
+        ("I,V\n1,1e-170\n2,4e-170\n", "output 'V' of record.csv reaches 4e-170 in size, allowed"),
+        ("I,V\n1,1e100\n2,4e140\n", "output 'V' of record.csv reaches 4e+140 in size, allowed"),
         ("I,V,I\n1,2,3\n", "2 columns named 'I'; say which: 'I (column 1)', 'I (column 3)'"),
     ],
 )
@@ -78,6 +96,13 @@ def test_bad_data(forgetting, tmp_path, text, words):
     if text is not None:
         path.write_text(text)
     assert words in forgetting("identify", path, *MODEL).sentence()
+
+
+def test_a_single_row_is_not_certified(forgetting, tmp_path):
+    path = tmp_path / "record.csv"
+    path.write_text("I,V\n1,2\n")
+    run = forgetting("certify", path, *MODEL)
+    assert "record.csv has 1 row; to certify an estimate takes at least 2" in run.sentence()
 
 
 def test_numbers_beyond_all_range(forgetting, tmp_path):

@@ -36,9 +36,11 @@ def only(folder: Path, *names: str) -> bool:
 def test_what_interrupts_the_writing_leaves_the_old_file(tmp_path, error):
     target = tmp_path / "a.csv"
     target.write_text("old")
-    with pytest.raises(type(error)), whole(target) as made:
+    with pytest.raises(type(error)) as caught, whole(target) as made:
         made.write_text("half")
         raise error
+    if isinstance(error, OSError):
+        assert caught.value.filename == str(target)
     assert target.read_text() == "old" and only(tmp_path, "a.csv")
 
 

@@ -194,6 +194,8 @@ def test_a_file_with_other_columns_is_refused(log):
     [
         (("--follow",), "--follow needs a file"),
         (("nowhere.csv",), "there is no file nowhere.csv"),
+        (("/dev/null",), "/dev/null is no file on a disk"),
+        (("tests",), "tests is a folder"),
         (("--to", "xml"), "--to is 'xml'"),
         (("--save-every", "0"), "--save-every is 0"),
         (("--separator", "::"), "--separator is '::'"),
@@ -208,3 +210,16 @@ def test_refusals(arguments, words):
     said = done.stderr.decode()
     assert (done.returncode, done.stdout) == (2, b"")
     assert words in said and said.count("\n") == 1
+
+
+def test_lines_that_end_with_a_carriage_return_alone_are_refused():
+    stream = fed(b"", SETTINGS)
+    with pytest.raises(ValueError, match="end them with a line feed"):
+        stream.feed(b"t,u,y\r1,2,3\r4,5,6\r\n")
+
+
+def test_a_value_beyond_all_range_warns_of_nothing():
+    given = "u,y\n1,1e300\n2,-1e300\n1e300,3\n"
+    done = command("-f", "y ~ u", data=given.encode())
+    assert done.returncode == 0 and b"Warning" not in done.stderr
+    assert b"2 out of range" in done.stderr

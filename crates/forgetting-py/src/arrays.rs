@@ -40,6 +40,18 @@ macro_rules! number {
 number!(f64, F64);
 number!(f32, F32);
 
+/// Finds NumPy's functions and types. Where they are needed first, a Ctrl-C in the middle of the search
+/// would be a panic.
+///
+/// # Errors
+/// That of NumPy's import.
+pub fn load(py: Python<'_>) -> PyResult<()> {
+    py.import("numpy")?;
+    <f64 as Number>::dtype(py);
+    <f32 as Number>::dtype(py);
+    Ok(())
+}
+
 /// Numbers from Python in the type of an estimator.
 pub enum Input<'a, 'py> {
     F64(Source<'a, 'py, f64>),

@@ -2,7 +2,7 @@
 
 use crate::errors::invalid;
 use numpy::{PyArrayDescrMethods, PyUntypedArray, PyUntypedArrayMethods};
-use pyo3::exceptions::PyException;
+use pyo3::exceptions::{PyException, PyMemoryError};
 use pyo3::prelude::*;
 
 /// `values` as an array that NumPy can convert without losing a part of them.
@@ -33,9 +33,10 @@ pub fn real_numbers<'py>(
     Err(invalid(format!("{name} must hold numbers, not {what} ({})", array.dtype())))
 }
 
-/// What is raised of values that NumPy cannot read: what only ends the work, such as Ctrl-C, as it is.
+/// What is raised of values that NumPy cannot read: what only ends the work, such as Ctrl-C, and a lack
+/// of memory, as they are.
 pub fn not_numbers(py: Python<'_>, name: &str, error: PyErr) -> PyErr {
-    if error.is_instance_of::<PyException>(py) {
+    if error.is_instance_of::<PyException>(py) && !error.is_instance_of::<PyMemoryError>(py) {
         return invalid(format!("{name} must hold numbers ({error})"));
     }
     error

@@ -28,6 +28,7 @@ use pyo3::prelude::*;
 
 #[pymodule]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    arrays::load(module.py())?;
     module.add_class::<rls::Rls>()?;
     module.add_class::<bank::Bank>()?;
     module.add_class::<bank_update::BankUpdate>()?;

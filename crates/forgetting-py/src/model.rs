@@ -4,6 +4,7 @@ use crate::arrays::{output, Input};
 use crate::bank::Bank;
 use crate::bounds::{BoundsInput, Pair};
 use crate::errors::{heed_signals, invalid, raise};
+use crate::pickle::bytes;
 use crate::rls::Rls;
 use crate::settings::{names, Names, Whole};
 use crate::shared::Shared;
@@ -171,7 +172,7 @@ impl SignalModel {
 
     /// The model, orders and state, as bytes: portable, versioned and checked.
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        Ok(PyBytes::new(py, &self.0.lock(py)?.to_bytes()))
+        bytes(py, &self.0.lock(py)?.to_bytes())
     }
 
     /// The model that `to_bytes` saved, bit for bit.

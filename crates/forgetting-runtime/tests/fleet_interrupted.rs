@@ -4,7 +4,7 @@
 mod signals;
 
 use forgetting_runtime::{
-    BankSettings, Choice, CoreError, Error, Fleet, FleetUpdate, Settings, View,
+    BankSettings, Choice, CoreError, Error, Fleet, FleetUpdate, GoOn, Settings, View,
 };
 use signals::numbers;
 
@@ -71,5 +71,96 @@ fn streams_are_as_they_were() {
             assert!(told.used == wanted.used && bits(&told) == bits(&wanted), "fleet {which}");
             assert!(states(&fleet) == states(&never), "fleet {which}, seed {seed}");
         }
+    }
+}
+
+/// Fleets of so many numbers that to start again may take long, one of streams with priors of their own.
+fn with_and_without_priors() -> [Fleet; 4] {
+    let (count, n) = (17_001, 10);
+    let variances: Vec<f64> = (0..count * n).map(|i| 1.0 + (i % 7) as f64).collect();
+    let shape = [count, n];
+    let of_rule = |name, variances: Option<&[f64]>| {
+        let given = variances.map(|variances| View::new("P", variances, &shape).unwrap());
+        let rule = Some(Choice::named(name));
+        let settings = Settings { rule, initial_covariance: given, ..Settings::new(n) };
+        Fleet::new(count as i64, &settings, None).unwrap()
+    };
+    [
+        of_rule("exponential", None),
+        of_rule("directional", Some(&variances)),
+        of_rule("oblique_projection", None),
+        Fleet::of_banks(40_001, &BankSettings::new(3)).unwrap(),
+    ]
+}
+
+/// Work on all streams.
+type Work = fn(&mut Fleet, GoOn<'_>) -> Result<(), Error>;
+
+const WORKS: [(&str, Work); 4] = [
+    ("grow", |fleet, go_on| fleet.grow_while(9_000, go_on)),
+    ("append", |fleet, go_on| {
+        let other = fleet.copy(&mut || Ok(()))?;
+        fleet.append_while(&other, go_on)
+    }),
+    ("reset", |fleet, go_on| fleet.reset(None, go_on)),
+    ("reset some", |fleet, go_on| {
+        let mask: Vec<_> = (0..fleet.count()).map(|i| i % 3 == 1).collect();
+        fleet.reset(Some(&mask), go_on)
+    }),
+];
+
+/// Answers no to the question with this number, counted from 0.
+fn no(end: usize) -> impl FnMut() -> Result<(), CoreError> {
+    let mut asked = 0;
+    move || {
+        asked += 1;
+        match asked > end {
+            true => Err(CoreError::Function { parameter: "go_on" }),
+            false => Ok(()),
+        }
+    }
+}
+
+#[test]
+fn streams_that_come_or_start_again_are_as_they_were() {
+    for (which, mut fleet) in with_and_without_priors().into_iter().enumerate() {
+        update(&mut fleet, 10, None).unwrap();
+        let (before, count) = (states(&fleet), fleet.count());
+        for (name, work) in WORKS {
+            let mut never = fleet.clone();
+            work(&mut never, &mut || Ok(())).unwrap();
+            let mut other = fleet.clone();
+            for end in [0, 1, 2, usize::MAX] {
+                if work(&mut other, &mut no(end)).is_ok() {
+                    assert!(end > 0, "fleet {which}, {name} asks nobody");
+                    break;
+                }
+                assert_eq!(other.count(), count, "fleet {which}, {name}, question {end}");
+                assert!(states(&other) == before, "fleet {which}, {name}, question {end}");
+            }
+            // and it goes on as one that was never ended
+            update(&mut other, 30, None).unwrap();
+            update(&mut never, 30, None).unwrap();
+            assert!(states(&other) == states(&never), "fleet {which}, {name}");
+        }
+    }
+}
+
+#[test]
+fn a_fleet_is_made_and_read_as_long_as_it_is_to_go_on() {
+    let ends = |error: Option<Error>| {
+        assert!(matches!(error, Some(Error::Core(CoreError::Function { .. }))));
+    };
+    ends(Fleet::new_while(3, &Settings::new(3), None, &mut no(0)).err());
+    ends(Fleet::of_banks_while(3, &BankSettings::new(3), &mut no(0)).err());
+    for fleet in fleets() {
+        let shape = [fleet.count(), fleet.parameters()];
+        let phi = vec![1.0; shape[0] * shape[1]];
+        ends(fleet.theta(&mut no(0)).err());
+        ends(fleet.variance(&mut no(0)).err());
+        ends(fleet.samples(&mut no(0)).err());
+        ends(fleet.health(&mut no(0)).err());
+        ends(fleet.copy(&mut no(0)).err());
+        ends(fleet.predict(View::new("phi", &phi[..], &shape).unwrap(), &mut no(0)).err());
     }
 }

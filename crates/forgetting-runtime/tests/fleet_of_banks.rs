@@ -69,7 +69,8 @@ fn follow(fleet: &mut Fleet, banks: &mut [Bank], n: usize, elapsed: Option<f64>)
 
 fn assert_same(fleet: &Fleet, banks: &[Bank], n: usize) {
     assert_eq!(fleet.count(), banks.len());
-    let (theta, samples) = (fleet.theta().elements.to_f64(), fleet.samples().elements);
+    let theta = fleet.theta(&mut || Ok(())).unwrap().elements.to_f64();
+    let samples = fleet.samples(&mut || Ok(())).unwrap().elements;
     for (i, bank) in banks.iter().enumerate() {
         assert_eq!(fleet.state(i as i64).unwrap(), bank.to_bytes().unwrap(), "stream {i}");
         let own = fleet.get(i as i64 - banks.len() as i64).unwrap();
@@ -145,8 +146,10 @@ fn health_bounds_the_eigenvalues() {
         let samples = (view(&phi, &[COUNT, 3]), view(&y, &[COUNT]), None);
         fleet.update(samples, None).unwrap();
     }
-    let (health, variance) =
-        (fleet.health(&mut || Ok(())).unwrap(), fleet.variance().elements.to_f64());
+    let (health, variance) = (
+        fleet.health(&mut || Ok(())).unwrap(),
+        fleet.variance(&mut || Ok(())).unwrap().elements.to_f64(),
+    );
     for i in 0..COUNT {
         let own = &variance[3 * i..3 * i + 3];
         let most = own.iter().fold(own[0], |most, &p| most.max(p));
@@ -199,12 +202,12 @@ fn streams_are_put_added_and_reset() {
     for (i, state) in [&fresh, &learned, &fresh, &learned, &fresh].into_iter().enumerate() {
         assert_eq!(fleet.state(i as i64).unwrap(), *state);
     }
-    fleet.reset(Some(&[false, true, false, false, false])).unwrap();
+    fleet.reset(Some(&[false, true, false, false, false]), &mut || Ok(())).unwrap();
     assert_eq!(fleet.state(1).unwrap(), fresh);
     assert_eq!(fleet.state(3).unwrap(), learned);
-    fleet.reset(None).unwrap();
+    fleet.reset(None, &mut || Ok(())).unwrap();
     assert_eq!(fleet.state(3).unwrap(), fresh);
-    assert!(fleet.describe().is_none() && fleet.forgetting_factor().is_none());
+    assert!(fleet.describe().is_none() && fleet.forgetting_factor().unwrap().is_none());
 
     let mut refused = |new: Stream| fleet.put(0, new).unwrap_err().to_string();
     let single = Estimator::new(&Settings::new(3)).unwrap();

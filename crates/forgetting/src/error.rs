@@ -108,10 +108,10 @@ impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::Value { parameter, index: None, value, allowed } => {
-                write!(f, "{parameter} = {value}, allowed: {allowed}")
+                write!(f, "{parameter} = {}, allowed: {allowed}", Short(value))
             }
             Self::Value { parameter, index: Some(index), value, allowed } => {
-                write!(f, "{parameter}[{index}] = {value}, allowed: {allowed}")
+                write!(f, "{parameter}[{index}] = {}, allowed: {allowed}", Short(value))
             }
             Self::Length { parameter, length, expected } => {
                 write!(f, "{parameter} has {length} elements, expected {expected}")
@@ -133,3 +133,16 @@ impl fmt::Display for Error {
 }
 
 impl core::error::Error for Error {}
+
+/// A number with a power of ten where it would be a long row of zeros.
+struct Short(f64);
+
+impl fmt::Display for Short {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(x) = *self;
+        match x == 0.0 || !x.is_finite() || (1e-5..1e21).contains(&x.max(-x)) {
+            true => write!(f, "{x}"),
+            false => write!(f, "{x:e}"),
+        }
+    }
+}

@@ -201,10 +201,12 @@ def check_options(
     is_pipe = str(source) == "-"
     if follow and is_pipe:
         raise RecordError("--follow needs a file; standard input is followed to its end anyway")
-    if not is_pipe and not follow and not source.is_file():
-        raise RecordError(f"there is no file {source}")
     if not is_pipe and source.is_dir():
         raise RecordError(f"{source} is a folder; a stream is a file or standard input")
+    if not is_pipe and not follow and source.exists() and not source.is_file():
+        raise RecordError(f"{source} is no file on a disk; read it as standard input: - < {source}")
+    if not is_pipe and not follow and not source.is_file():
+        raise RecordError(f"there is no file {source}")
     check_outputs({"--state": state}, None if is_pipe else source)
 
 

@@ -12,6 +12,8 @@ from forgetting._core import InvalidInput
 
 Each = int | Sequence[int]
 """An order: the same for all inputs, or one for each."""
+MOST = 100_000
+"""The largest order, of whatever kind: P of so many parameters has 80 GB."""
 
 
 @dataclass(frozen=True)
@@ -21,19 +23,19 @@ class Orders:
     Parameters
     ----------
     na : int
-        Past outputs per output, >= 0.
+        Past outputs per output, from 0 to 100 000.
     nb : int or sequence of int
-        Values of each input, >= 0: the same for all inputs, or one for each; with `na` at least 1
-        in total.
+        Values of each input, from 0 to 100 000: the same for all inputs, or one for each; with
+        `na` at least 1 in total.
     nk : int or sequence of int
-        Delay of the newest value of each input in samples, >= 0; 0 means that u(k) itself acts on
-        y(k).
+        Delay of the newest value of each input in samples, from 0 to 100 000; 0 means that u(k)
+        itself acts on y(k).
 
     Raises
     ------
     forgetting.InvalidInput
-        When an order is not a whole number >= 0, when na + nb is 0, when nb is 0 for each input, or
-        when nb and nk are for different numbers of inputs.
+        When an order is not a whole number from 0 to 100 000, when na + nb is 0, when nb is 0 for
+        each input, or when nb and nk are for different numbers of inputs.
 
     Examples
     --------
@@ -51,7 +53,7 @@ class Orders:
     nk: Each = 0
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "na", whole("na", self.na))
+        object.__setattr__(self, "na", an_order("na", self.na))
         for name in ("nb", "nk"):
             object.__setattr__(self, name, same_or_each(name, getattr(self, name)))
         if isinstance(self.nb, tuple) and not any(self.nb):
@@ -64,7 +66,7 @@ class Orders:
     def of(cls, orders: Sequence[Each]) -> Orders:
         """The orders na, nb, nk, in this order."""
         na, nb, nk = orders
-        return cls(whole("na", na), nb, nk)
+        return cls(an_order("na", na), nb, nk)
 
     @property
     def reach(self) -> int:
@@ -107,7 +109,7 @@ def same_or_each(
     """Return an order for all inputs, or those of each, checked."""
     if isinstance(value, Sequence):
         return tuple(per_input(name, value, len(value)))
-    return whole(name, value)
+    return an_order(name, value)
 
 
 def total(order: Each) -> int:
@@ -149,10 +151,18 @@ def per_input(name: str, value: SupportsIndex | Sequence[SupportsIndex], inputs:
     ([2, 2, 2], [0, 1])
     """
     if not isinstance(value, Sequence):
-        return [whole(name, value)] * inputs
+        return [an_order(name, value)] * inputs
     if len(value) != inputs:
         raise InvalidInput(f"{name} has {len(value)} orders for {inputs} input(s)")
-    return [whole(f"{name}[{i}]", order) for i, order in enumerate(value)]
+    return [an_order(f"{name}[{i}]", order) for i, order in enumerate(value)]
+
+
+def an_order(name: str, value: Any) -> int:
+    """Return an order as an int from 0 to `MOST` or say which one is wrong."""
+    number = whole(name, value)
+    if number > MOST:
+        raise InvalidInput(f"{name} is {number}; it must be a whole number from 0 to {MOST}")
+    return number
 
 
 def whole(name: str, value: Any) -> int:

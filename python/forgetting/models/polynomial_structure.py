@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from forgetting._core import InvalidInput, SignalModel
 from forgetting.models.layout import Layout
-from forgetting.models.orders import per_input, whole
+from forgetting.models.orders import an_order, per_input
 from forgetting.models.signal_origin import SignalOrigin
 
 Array = NDArray[np.float64]
@@ -101,5 +101,5 @@ class PolynomialStructure:
                 f"nb is {self.nb} but u has {inputs} input(s); nb = 0 goes with u = None"
             )
         each = [per_input(name, getattr(self, name), inputs) for name in ("nb", "nf", "nk")]
-        scalars = {name: whole(name, getattr(self, name)) for name in ("na", "nc", "nd")}
+        scalars = {name: an_order(name, getattr(self, name)) for name in ("na", "nc", "nd")}
         return scalars | {"inputs": list(zip(*each, strict=True))}

@@ -154,7 +154,9 @@ def weighted_sum(weights: Array, values: Array) -> Array:
     >>> weighted_sum(np.array([1.0, 2.0]), np.array([[[3.0], [4.0]]]))
     array([[11.]])
     """
-    total = weights[0] * values[:, 0]
-    for i in range(1, len(weights)):
-        total = total + weights[i] * values[:, i]
+    # of values that no estimator takes the sum may be infinite
+    with np.errstate(over="ignore", invalid="ignore"):
+        total = weights[0] * values[:, 0]
+        for i in range(1, len(weights)):
+            total = total + weights[i] * values[:, i]
     return np.asarray(total)

@@ -21,6 +21,9 @@ Array = NDArray[np.float64]
 PIECE = 65_536
 """Rows taken at a time where all of them at once would be a copy of a long record."""
 
+SMALLEST, LARGEST = 1e-75, 1e75
+"""Sizes of signals of which squares and products of squares are numbers still."""
+
 
 @dataclass(frozen=True)
 class Samples:
@@ -96,7 +99,7 @@ class Samples:
         return step if np.isfinite(step) else None
 
     def check(self) -> Samples:
-        """Refuse infinite regressors and a record in which no sample is complete."""
+        """Refuse infinite regressors, sizes that cannot be judged, and no sample at all."""
         infinite = np.argwhere(np.isinf(self.phi))
         if len(infinite):
             row, column = infinite[0]
@@ -104,6 +107,11 @@ class Samples:
                 f"regressor {self.regressors[column]!r} is infinite "
                 f"in row {row + 1} of {self.source}"
             )
+        for name, column in zip(self.regressors, self.phi.T, strict=True):
+            check_size(f"regressor {name!r} of {self.source}", column, 1)
+        for name, column in zip(self.outputs, self.y.T, strict=True):
+            # a single wild value is left to the estimator, which names its row
+            check_size(f"output {name!r} of {self.source}", column, len(column) // 2 + 1)
         if not self.complete.any():
             cut = f"; {self.clock_in_words()}; --time none ignores it" if self.cut else ""
             raise RecordError(
@@ -139,6 +147,18 @@ class Samples:
             return "no clock; lags count rows"
         rows = f"{self.cut} row{'s' * (self.cut != 1)}"
         return f"clock {self.clock}; it cut the lags of {rows}"
+
+
+def check_size(what: str, values: Array, many: int) -> None:
+    """Refuse values that are too small, or of which so many are too large, for products."""
+    largest = max(np.fmax.reduce(values, initial=0.0), -np.fmin.reduce(values, initial=0.0))
+    if 0.0 < largest < SMALLEST or (
+        largest > LARGEST and np.count_nonzero(np.abs(values) > LARGEST) >= many
+    ):
+        raise RecordError(
+            f"{what} reaches {largest:.3g} in size, allowed: 0, or {SMALLEST:g} to {LARGEST:g}; "
+            f"state it in another unit"
+        )
 
 
 def pieces(total: int, length: int = PIECE) -> Iterator[slice]:

@@ -21,6 +21,7 @@ from forgetting.record.identification import Identification
 from forgetting.record.moved import Moved, as_run
 from forgetting.record.origin import origin
 from forgetting.record.samples import Samples, pieces
+from forgetting.words.errors import RecordError
 
 Array = NDArray[np.float64]
 
@@ -159,6 +160,10 @@ def theory(
     for part in pieces(start):
         learn(part, *samples.rows(part), ())
     known = start > 0 or initial_covariance is not None
+    if total - start < 2 and not known:
+        raise RecordError(
+            f"{found.samples.source} has {total} row; to certify an estimate takes at least 2"
+        )
     scale = np.outer(found.units, found.units)
     before = np.asarray(estimator.covariance, dtype=np.float64) * scale if known else None
     rest = slice(start, None)

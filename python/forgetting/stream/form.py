@@ -108,6 +108,10 @@ def recognised(
     if not lines:
         return None
     first = lines[0].strip()
+    if "\r" in first:
+        raise RecordError(
+            "the lines of the stream end with a carriage return alone; end them with a line feed"
+        )
     if first.startswith("{"):
         return of_object(first)
     unit_line = lines[1].strip() if has_units(lines, separator) else ""

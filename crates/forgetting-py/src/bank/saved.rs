@@ -2,6 +2,7 @@
 
 use super::{Bank, Inner};
 use crate::errors::raise;
+use crate::pickle::bytes;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyType};
 
@@ -9,7 +10,7 @@ use pyo3::types::{PyBytes, PyType};
 impl Bank {
     /// The bank, configuration and state, as bytes: portable, versioned and checked.
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        Ok(PyBytes::new(py, &self.bank.lock(py)?.to_bytes().map_err(raise)?))
+        bytes(py, &self.bank.lock(py)?.to_bytes().map_err(raise)?)
     }
 
     /// The bank that `to_bytes` saved, bit for bit.

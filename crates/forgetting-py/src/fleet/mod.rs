@@ -98,6 +98,7 @@ impl Fleet {
         gate=None, initial_covariance=None, initial_theta=None, dtype='float64', threads=None)")]
     #[allow(clippy::too_many_arguments, reason = "Python's keywords")]
     fn new(
+        py: Python<'_>,
         count: Whole,
         parameters: Whole,
         rule: Option<&Bound<'_, PyAny>>,
@@ -124,16 +125,18 @@ impl Fleet {
             ..choices
         };
         let factor = view("forgetting_factor", &factor)?;
-        let fleet = match (auto, factor) {
-            (false, factor) => forgetting_runtime::Fleet::new(count.0, &settings, factor),
-            (true, None) => {
+        if auto && factor.is_some() {
+            return Err(invalid("forgetting_factor is given, but the rule auto uses none"));
+        }
+        let fleet = py.detach(|| match auto {
+            true => {
                 let settings = BankSettings { common: settings, members: None, mixer: None };
-                forgetting_runtime::Fleet::of_banks(count.0, &settings)
+                forgetting_runtime::Fleet::of_banks_while(count.0, &settings, &mut heed_signals)
             }
-            (true, Some(_)) => {
-                return Err(invalid("forgetting_factor is given, but the rule auto uses none"))
+            false => {
+                forgetting_runtime::Fleet::new_while(count.0, &settings, factor, &mut heed_signals)
             }
-        };
+        });
         let mut fleet = fleet.map_err(raise)?;
         fleet.set_threads(threads);
         Ok(Self::of(fleet))
@@ -188,25 +191,31 @@ impl Fleet {
     /// The forgetting factor of each stream, (count,); None where it is not constant.
     #[getter]
     fn forgetting_factor(&self, py: Python<'_>) -> PyResult<Option<Py<PyAny>>> {
-        optional(py, self.fleet.lock(py)?.forgetting_factor())
+        optional(py, self.fleet.lock(py)?.forgetting_factor().map_err(raise)?)
     }
 
     /// The estimates, (count, n).
     #[getter]
     fn theta<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        output(py, self.fleet.lock(py)?.theta())
+        let held = self.fleet.lock(py)?;
+        let fleet = &*held;
+        output(py, py.detach(|| fleet.theta(&mut heed_signals)).map_err(raise)?)
     }
 
     /// The diagonal of each stream's covariance P, (count, n), in units of 1/phi**2.
     #[getter]
     fn variance<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        output(py, self.fleet.lock(py)?.variance())
+        let held = self.fleet.lock(py)?;
+        let fleet = &*held;
+        output(py, py.detach(|| fleet.variance(&mut heed_signals)).map_err(raise)?)
     }
 
     /// Samples used by each stream since its start, (count,).
     #[getter]
     fn samples<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        output(py, self.fleet.lock(py)?.samples())
+        let held = self.fleet.lock(py)?;
+        let fleet = &*held;
+        output(py, py.detach(|| fleet.samples(&mut heed_signals)).map_err(raise)?)
     }
 
     /// The covariance P of the stream at `index`, (n, n), in units of 1/phi**2.

@@ -26,7 +26,7 @@ impl Fleet {
         let phi = Input::read("phi", phi, self.number_type)?;
         let held = self.fleet.lock(py)?;
         let (fleet, phi) = (&*held, phi.view("phi")?);
-        output(py, py.detach(|| fleet.predict(phi)).map_err(raise)?)
+        output(py, py.detach(|| fleet.predict(phi, &mut heed_signals)).map_err(raise)?)
     }
 
     /// Take a sample of each stream, without holding the interpreter. Ctrl-C is heard within half a
@@ -94,7 +94,9 @@ impl Fleet {
     #[pyo3(signature = (mask=None))]
     fn reset(&self, py: Python<'_>, mask: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
         let mask = mask.map(|mask| read_mask(mask)).transpose()?;
-        self.fleet.lock(py)?.reset(mask.as_deref()).map_err(raise)
+        let mut held = self.fleet.lock(py)?;
+        let (fleet, mask) = (&mut *held, mask.as_deref());
+        py.detach(|| fleet.reset(mask, &mut heed_signals)).map_err(raise)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::Fleet;
 use crate::errors::{heed_signals, raise};
+use crate::pickle::bytes;
 use forgetting_runtime::Error;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyTuple, PyType};
@@ -28,11 +29,11 @@ impl Fleet {
         let fleet = self.fleet.lock(py)?;
         let fresh = std::iter::once_with(|| fleet.fresh_state());
         let streams = (0..fleet.count() as i64).map(|stream| fleet.state(stream));
-        let bytes = |state: Result<Vec<u8>, Error>| {
+        let written = |state: Result<Vec<u8>, Error>| {
             py.check_signals()?;
-            Ok(PyBytes::new(py, &state.map_err(raise)?))
+            bytes(py, &state.map_err(raise)?)
         };
-        fresh.chain(streams).map(bytes).collect()
+        fresh.chain(streams).map(written).collect()
     }
 
     /// The fleet that has these states.
@@ -53,8 +54,10 @@ impl Fleet {
         Ok((slf.getattr("_of_states")?, (states.remove(0).into_any(), each)))
     }
 
-    fn __copy__(&self, py: Python<'_>) -> PyResult<Self> {
-        Ok(Self::of(self.fleet.lock(py)?.clone()))
+    pub(super) fn __copy__(&self, py: Python<'_>) -> PyResult<Self> {
+        let held = self.fleet.lock(py)?;
+        let fleet = &*held;
+        py.detach(|| fleet.copy(&mut heed_signals)).map(Self::of).map_err(raise)
     }
 
     fn __deepcopy__(&self, memo: &Bound<'_, PyAny>) -> PyResult<Self> {

@@ -2,7 +2,7 @@
 
 use super::Fleet;
 use crate::bank::Bank;
-use crate::errors::{invalid, raise};
+use crate::errors::{heed_signals, invalid, raise};
 use crate::rls::Rls;
 use crate::settings::Whole;
 use forgetting_runtime::Stream;
@@ -12,7 +12,7 @@ use pyo3::IntoPyObjectExt;
 
 #[pymethods]
 impl Fleet {
-    /// Add streams after the last.
+    /// Add streams after the last. Like `update` it hears Ctrl-C; there are then as many as before.
     ///
     /// Parameters
     /// ----------
@@ -23,13 +23,18 @@ impl Fleet {
     fn append(slf: &Bound<'_, Self>, more: &Bound<'_, PyAny>) -> PyResult<()> {
         let py = slf.py();
         if let Ok(other) = more.cast::<Self>() {
-            let other = other.get().fleet.lock(py)?.clone();
-            return slf.get().fleet.lock(py)?.append(&other).map_err(raise);
+            // a copy, since it may be this one, or wait for this one elsewhere
+            let other = other.get().__copy__(py)?.fleet;
+            let (other, mut held) = (other.lock(py)?, slf.get().fleet.lock(py)?);
+            let (other, fleet) = (&*other, &mut *held);
+            return py.detach(|| fleet.append_while(other, &mut heed_signals)).map_err(raise);
         }
         let count = more
             .extract::<Whole>()
             .map_err(|_| invalid(format!("more = {more:?}, allowed: a whole number or a Fleet")))?;
-        slf.get().fleet.lock(py)?.grow(count.0).map_err(raise)
+        let mut held = slf.get().fleet.lock(py)?;
+        let fleet = &mut *held;
+        py.detach(|| fleet.grow_while(count.0, &mut heed_signals)).map_err(raise)
     }
 
     /// A copy of the stream at `index`, as an `RLS` or a `Bank` that goes on from there.

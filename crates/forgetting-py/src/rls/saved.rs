@@ -2,6 +2,7 @@
 
 use super::Rls;
 use crate::errors::raise;
+use crate::pickle::bytes;
 use forgetting_runtime::Estimator;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyType};
@@ -10,7 +11,7 @@ use pyo3::types::{PyBytes, PyType};
 impl Rls {
     /// The estimator, configuration and state, as bytes: portable, versioned and checked.
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        Ok(PyBytes::new(py, &self.estimator.lock(py)?.to_bytes().map_err(raise)?))
+        bytes(py, &self.estimator.lock(py)?.to_bytes().map_err(raise)?)
     }
 
     /// The estimator that `to_bytes` saved, bit for bit.

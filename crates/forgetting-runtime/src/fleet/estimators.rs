@@ -44,11 +44,3 @@ pub fn predict<T: Number>(
     let each = phi.chunks_exact(n).zip(prediction.chunks_exact_mut(1));
     streams.iter().zip(each).try_for_each(|(stream, (phi, y))| stream.predict(phi, y))
 }
-
-/// The largest and the smallest element of D of each stream.
-pub fn extremes<T: Number>(streams: &[AnyEstimator<T>], largest: &mut [T], smallest: &mut [T]) {
-    let places = largest.iter_mut().zip(smallest);
-    for (stream, (largest, smallest)) in streams.iter().zip(places) {
-        (*largest, *smallest) = (stream.factor().largest(), stream.factor().smallest());
-    }
-}

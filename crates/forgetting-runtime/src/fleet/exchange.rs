@@ -3,7 +3,7 @@
 use super::{kept, make, Fleet, Kept, Stream};
 use crate::bank::Bank;
 use crate::error::Error;
-use crate::estimator::Estimator;
+use crate::estimator::{Estimator, GoOn};
 use crate::number::{both, each, map};
 
 impl Fleet {
@@ -13,12 +13,20 @@ impl Fleet {
     /// # Errors
     /// [`Error::Core`] names `count`, or that there is not enough memory; nothing has changed.
     pub fn grow(&mut self, count: i64) -> Result<(), Error> {
+        self.grow_while(count, &mut || Ok(()))
+    }
+
+    /// The same, as long as `go_on` says so, which is asked a few times a second.
+    ///
+    /// # Errors
+    /// Those of [`Fleet::grow`], and that of `go_on`; nothing has changed.
+    pub fn grow_while(&mut self, count: i64, go_on: GoOn<'_>) -> Result<(), Error> {
         if count < 1 {
             let allowed = "whole numbers from 1";
             return Err(forgetting::Error::value("count", count as f64, allowed).into());
         }
         let count = make::read_count(count)?;
-        Ok(kept!(&mut self.kept, streams => streams.grow(count))?)
+        Ok(kept!(&mut self.kept, streams => streams.grow(count, go_on))?)
     }
 
     /// Adds copies of the streams of another fleet of the same parameters, rule, weighting, gate
@@ -27,12 +35,20 @@ impl Fleet {
     /// # Errors
     /// [`Error`] says what differs; nothing has changed.
     pub fn append(&mut self, other: &Self) -> Result<(), Error> {
+        self.append_while(other, &mut || Ok(()))
+    }
+
+    /// The same, as long as `go_on` says so, which is asked a few times a second.
+    ///
+    /// # Errors
+    /// Those of [`Fleet::append`], and that of `go_on`; nothing has changed.
+    pub fn append_while(&mut self, other: &Self, go_on: GoOn<'_>) -> Result<(), Error> {
         let appended = match (&mut self.kept, &other.kept) {
             (Kept::Estimators(own), Kept::Estimators(others)) => {
-                both!(own, others; streams, others => streams.append(others))
+                both!(own, others; streams, others => streams.append(others, go_on))
             }
             (Kept::Banks(own), Kept::Banks(others)) => {
-                both!(own, others; streams, others => streams.append(others))
+                both!(own, others; streams, others => streams.append(others, go_on))
             }
             _ => return Err(self.other_kind()),
         };

@@ -4,6 +4,7 @@ use super::streams::Streams;
 use crate::choice::has_function;
 use crate::configure;
 use crate::error::Error;
+use crate::estimator::record::{GoOn, Pause};
 use crate::number::{Number, View};
 use crate::settings::Settings;
 use crate::shape::either;
@@ -25,6 +26,7 @@ pub(super) fn streams<T: Number>(
     count: usize,
     settings: &Settings<'_>,
     forgetting_factor: Option<View<'_>>,
+    go_on: GoOn<'_>,
 ) -> Result<Streams<T>, Error> {
     check_single(settings)?;
     let with_factor = settings.with_factor();
@@ -50,11 +52,13 @@ pub(super) fn streams<T: Number>(
         fresh = like(&fresh, Some(factor), fresh.prior().clone())?;
     }
     let mut streams = Streams::of(fresh);
-    streams.grow(count)?;
+    streams.grow(count, go_on)?;
     if covariances.is_none() && thetas.is_none() && factors.is_none() {
         return Ok(streams);
     }
+    let mut pause = Pause::new(go_on, 1, n);
     for stream in 0..count {
+        pause.after(1)?;
         let own = |numbers| own(numbers, stream);
         let factor = own(&factors).map(|factor| factor[0]);
         let fresh = streams.fresh();

@@ -31,8 +31,8 @@ pub trait Many<T: Number> {
     /// φθ of each stream.
     ///
     /// # Errors
-    /// Those of [`Estimator::predict`](forgetting::Estimator::predict).
-    fn predict(&self, phi: &[T], prediction: &mut [T]) -> Result<(), Error>;
+    /// Those of [`Estimator::predict`](forgetting::Estimator::predict), and that of `go_on`.
+    fn predict(&self, phi: &[T], prediction: &mut [T], go_on: GoOn<'_>) -> Result<(), Error>;
 }
 
 impl<T: Number> Many<T> for Streams<T> {
@@ -69,11 +69,8 @@ impl<T: Number> Many<T> for Streams<T> {
         }
     }
 
-    fn predict(&self, phi: &[T], prediction: &mut [T]) -> Result<(), Error> {
-        match self {
-            Self::Blocks(fleet) => fleet.predict(phi, prediction),
-            Self::Estimators { each, .. } => estimators::predict(each, phi, prediction),
-        }
+    fn predict(&self, phi: &[T], prediction: &mut [T], go_on: GoOn<'_>) -> Result<(), Error> {
+        Self::predict(self, phi, prediction, go_on)
     }
 }
 
@@ -92,7 +89,7 @@ fn update_after<T: Number>(
     match wishes.go_on.filter(|_| is_long && is_room()) {
         None => one_after_the_other(streams, elapsed, samples, outputs, &mut || Ok(())),
         Some(go_on) => {
-            let before = streams.clone();
+            let before = streams.copy(go_on)?;
             one_after_the_other(streams, elapsed, samples, outputs, go_on)
                 .inspect_err(|_| *streams = before)
         }

@@ -9,7 +9,11 @@ mod many;
 mod numbers;
 mod one_by_one;
 mod part;
+mod pieces;
+mod read;
+mod reset;
 mod saved;
+mod size;
 mod stream;
 mod streams;
 mod threads;
@@ -91,9 +95,22 @@ impl Fleet {
         settings: &Settings<'_>,
         forgetting_factor: Option<View<'_>>,
     ) -> Result<Self, Error> {
+        Self::new_while(count, settings, forgetting_factor, &mut || Ok(()))
+    }
+
+    /// The same, as long as `go_on` says so, which is asked a few times a second.
+    ///
+    /// # Errors
+    /// Those of [`Fleet::new`], and that of `go_on`.
+    pub fn new_while(
+        count: i64,
+        settings: &Settings<'_>,
+        forgetting_factor: Option<View<'_>>,
+        go_on: GoOn<'_>,
+    ) -> Result<Self, Error> {
         let count = make::read_count(count)?;
         let typed = make!(settings.number_type, T => {
-            make::streams::<T>(count, settings, forgetting_factor)?
+            make::streams::<T>(count, settings, forgetting_factor, go_on)?
         });
         Ok(Self { kept: Kept::Estimators(typed), threads: None })
     }
@@ -104,10 +121,22 @@ impl Fleet {
     /// # Errors
     /// [`Error`] names the parameter, its value and what is allowed.
     pub fn of_banks(count: i64, settings: &BankSettings<'_>) -> Result<Self, Error> {
+        Self::of_banks_while(count, settings, &mut || Ok(()))
+    }
+
+    /// The same, as long as `go_on` says so, which is asked a few times a second.
+    ///
+    /// # Errors
+    /// Those of [`Fleet::of_banks`], and that of `go_on`.
+    pub fn of_banks_while(
+        count: i64,
+        settings: &BankSettings<'_>,
+        go_on: GoOn<'_>,
+    ) -> Result<Self, Error> {
         let count = make::read_count(count)?;
         let typed = make!(settings.common.number_type, T => {
             let mut banks = Banks::of(bank::make::bank::<T>(settings)?)?;
-            banks.grow(count)?;
+            banks.grow(count, go_on)?;
             banks
         });
         Ok(Self { kept: Kept::Banks(typed), threads: None })
@@ -159,30 +188,39 @@ impl Fleet {
     }
 
     /// λ of each stream, (count,); none where it is not constant.
-    #[must_use]
-    pub fn forgetting_factor(&self) -> Option<Array> {
-        kept!(&self.kept, streams => {
-            streams.forgetting_factor().map(|factors| Number::array(factors, &[streams.count()]))
-        })
+    ///
+    /// # Errors
+    /// [`Error`] says that there is no memory for so many.
+    pub fn forgetting_factor(&self) -> Result<Option<Array>, Error> {
+        Ok(kept!(&self.kept, streams => {
+            let factors = streams.forgetting_factor()?;
+            factors.map(|factors| Number::array(factors, &[streams.count()]))
+        }))
     }
 
     /// θ of each stream, (count, n).
-    #[must_use]
-    pub fn theta(&self) -> Array {
-        kept!(&self.kept, streams => Number::array(streams.theta(), &streams.shape()))
+    ///
+    /// # Errors
+    /// That of `go_on`, which is asked a few times a second.
+    pub fn theta(&self, go_on: GoOn<'_>) -> Result<Array, Error> {
+        Ok(kept!(&self.kept, streams => Number::array(streams.theta(go_on)?, &streams.shape())))
     }
 
     /// The diagonal of P of each stream, (count, n), in units of 1/φ².
-    #[must_use]
-    pub fn variance(&self) -> Array {
-        kept!(&self.kept, streams => Number::array(streams.variance(), &streams.shape()))
+    ///
+    /// # Errors
+    /// That of `go_on`, which is asked a few times a second.
+    pub fn variance(&self, go_on: GoOn<'_>) -> Result<Array, Error> {
+        Ok(kept!(&self.kept, streams => Number::array(streams.variance(go_on)?, &streams.shape())))
     }
 
     /// Samples used by each stream since its start, (count,).
-    #[must_use]
-    pub fn samples(&self) -> Array {
-        let samples = kept!(&self.kept, streams => streams.samples());
-        Array { shape: vec![samples.len()], elements: Elements::I64(samples) }
+    ///
+    /// # Errors
+    /// That of `go_on`, which is asked a few times a second.
+    pub fn samples(&self, go_on: GoOn<'_>) -> Result<Array, Error> {
+        let samples = kept!(&self.kept, streams => streams.samples(go_on)?);
+        Ok(Array { shape: vec![samples.len()], elements: Elements::I64(samples) })
     }
 
     /// How far each estimate can be trusted now, in O(n) a stream.
@@ -210,19 +248,33 @@ impl Fleet {
     /// φθ of each stream, (count,), for `phi` (count, n).
     ///
     /// # Errors
-    /// [`Error::Shape`] names `phi`.
-    pub fn predict(&self, phi: View<'_>) -> Result<Array, Error> {
-        kept!(&self.kept, streams => update::predict(&**streams, phi))
+    /// [`Error::Shape`] names `phi`; that of `go_on`, which is asked a few times a second.
+    pub fn predict(&self, phi: View<'_>, go_on: GoOn<'_>) -> Result<Array, Error> {
+        kept!(&self.kept, streams => update::predict(&**streams, phi, go_on))
     }
 
     /// Back to the initial estimate and covariance, for the streams that `mask` names, or all.
     ///
     /// # Errors
-    /// [`Error::Shape`] names `mask`.
-    pub fn reset(&mut self, mask: Option<&[bool]>) -> Result<(), Error> {
+    /// [`Error::Shape`] names `mask`; that of `go_on`, which is asked a few times a second where the
+    /// streams are many and there is memory for a copy of them. Nothing has changed.
+    pub fn reset(&mut self, mask: Option<&[bool]>, go_on: GoOn<'_>) -> Result<(), Error> {
         update::check_mask(mask, self.count())?;
-        kept!(&mut self.kept, streams => streams.reset(mask));
-        Ok(())
+        Ok(kept!(&mut self.kept, streams => streams.reset(mask, go_on))?)
+    }
+
+    /// A copy of all streams.
+    ///
+    /// # Errors
+    /// [`Error`] says that there is no memory for it; that of `go_on`, which is asked a few times a second.
+    pub fn copy(&self, go_on: GoOn<'_>) -> Result<Self, Error> {
+        let kept = match &self.kept {
+            Kept::Estimators(typed) => {
+                Kept::Estimators(map!(typed, streams => streams.copy(go_on)?))
+            }
+            Kept::Banks(typed) => Kept::Banks(map!(typed, streams => streams.copy(go_on)?)),
+        };
+        Ok(Self { kept, threads: self.threads })
     }
 
     /// Where `stream` is, counted from the end if negative.

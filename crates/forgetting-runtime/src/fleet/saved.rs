@@ -57,7 +57,7 @@ fn estimators<T: Number>(
     check_stream(streams.fresh())?;
     check_functions(streams.fresh())?;
     check_lengths(states, least_length(streams.fresh()))?;
-    streams.grow(states.len())?;
+    streams.grow(states.len(), go_on)?;
     let mut pause = Pause::new(go_on, 1, streams.parameters());
     for (stream, state) in states.iter().enumerate() {
         pause.after(1)?;
@@ -71,7 +71,7 @@ fn estimators<T: Number>(
 fn banks<T: Number>(fresh: &[u8], states: &[&[u8]], go_on: GoOn<'_>) -> Result<Banks<T>, Error> {
     let mut streams = Banks::of(Bank::<T>::from_bytes(fresh)?)?;
     check_lengths(states, least_length(&streams.fresh().members()[0]))?;
-    streams.grow(states.len())?;
+    streams.grow(states.len(), go_on)?;
     let mut pause = Pause::new(go_on, 1, streams.parameters());
     for (stream, state) in states.iter().enumerate() {
         pause.after(1)?;

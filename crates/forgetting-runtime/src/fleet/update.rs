@@ -1,6 +1,7 @@
 //! A sample for every stream of a fleet.
 
 use super::many::Many;
+use super::pieces::zeros;
 use super::threads::Wishes;
 use super::{kept, Fleet, Kept};
 use crate::error::{check_shape, Error};
@@ -117,9 +118,9 @@ fn update<T: Number>(
     let y = read::<T>("y", y, &[count])?;
     check_mask(mask, count)?;
     let wanted = |name| outputs.contains(&name);
-    let mut error = wanted("error").then(|| vec![T::ZERO; count]);
-    let mut leverage = wanted("leverage").then(|| vec![T::ZERO; count]);
-    let mut skipped = wanted("skipped").then(|| vec![0; count]);
+    let mut error = wanted("error").then(|| zeros::<T>(count)).transpose()?;
+    let mut leverage = wanted("leverage").then(|| zeros::<T>(count)).transpose()?;
+    let mut skipped = wanted("skipped").then(|| zeros::<u8>(count)).transpose()?;
     let results = Outputs {
         error: error.as_deref_mut(),
         leverage: leverage.as_deref_mut(),
@@ -153,11 +154,15 @@ fn read_elapsed<T: Number>(elapsed: View<'_>, count: usize) -> Result<Vec<T>, Er
 }
 
 /// φθ of each stream.
-pub(super) fn predict<T: Number>(streams: &impl Many<T>, phi: View<'_>) -> Result<Array, Error> {
+pub(super) fn predict<T: Number>(
+    streams: &impl Many<T>,
+    phi: View<'_>,
+    go_on: GoOn<'_>,
+) -> Result<Array, Error> {
     let count = streams.shape()[0];
     let phi = read::<T>("phi", phi, &streams.shape())?;
-    let mut prediction = vec![T::ZERO; count];
-    streams.predict(&phi, &mut prediction)?;
+    let mut prediction = zeros::<T>(count)?;
+    streams.predict(&phi, &mut prediction, go_on)?;
     Ok(T::array(prediction, &[count]))
 }
 

@@ -140,7 +140,7 @@ impl<T: Kernels> Lanes<T> {
         let (block, lane) = (i / Line::<T>::LANES, i % Line::<T>::LANES);
         let lines = &self.lines[block * length..(block + 1) * length];
         let numbers = lines.iter().map(|line| line.get(lane)).collect();
-        Numbers::give(numbers, Vec::from([self.samples[i]]), member);
+        Numbers::new(numbers, Vec::from([self.samples[i]])).give(member);
     }
 
     /// Lets all members take samples of n numbers `phi` and one number `y`, until one of them cannot;

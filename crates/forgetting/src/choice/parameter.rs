@@ -178,10 +178,11 @@ impl Parameter {
     /// positive, but the `f32` nearest to it is 0.
     ///
     /// # Errors
-    /// Those of [`Parameter::check`].
+    /// Those of [`Parameter::check`], and [`Error::Value`] for what the type has no number for.
     pub fn convert<T: Real>(&self, x: f64) -> Result<T, Error> {
         let converted = T::from_f64(self.check(x)?);
-        self.check(converted).map_err(|_| Error::value(self.name, x, self.range.words))
+        let allowed = "within the number type's range";
+        self.check(converted).map_err(|_| Error::value(self.name, x, allowed))
     }
 
     /// The elements of the list given in `values`, or of the default: a number stands for a

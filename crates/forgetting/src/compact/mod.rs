@@ -18,6 +18,7 @@ pub use saved::{load, save, Saved};
 pub use walk::Walk;
 
 use crate::choice::Values;
+use crate::covariance::allowed_variances;
 use crate::error::Error;
 use crate::memory::{Fixed, Packed, Size};
 use crate::rates::{Constant, Rate};
@@ -93,7 +94,7 @@ where
     ) -> Result<Self, Error> {
         if !(initial_covariance >= T::FLOOR && initial_covariance <= T::CEILING) {
             let value = initial_covariance.to_f64();
-            return Err(Error::value("initial_covariance", value, "positive and finite"));
+            return Err(Error::value("initial_covariance", value, allowed_variances::<T>()));
         }
         if let Some(index) = initial_theta.iter().position(|x| !(x.abs() <= T::CEILING)) {
             let value = initial_theta.get(index).map_or(f64::NAN, |x| x.to_f64());

@@ -70,7 +70,7 @@ impl<M: Memory> Factor<M> {
                     parameter: NAME,
                     index: Some(index),
                     value: variance.to_f64(),
-                    allowed: "positive and finite",
+                    allowed: allowed_variances::<M::Real>(),
                 });
             }
         }
@@ -269,5 +269,13 @@ fn visit_columns<T: Kernels>(columns: &mut [T], n: usize, visitor: &mut dyn Visi
             let start = layout::place::<T>(i, j);
             visitor.reals(&mut columns[start..start + T::ROWS.min(j - i)]);
         }
+    }
+}
+
+/// The elements that D may have, in words.
+pub(crate) fn allowed_variances<T: Real>() -> &'static str {
+    match T::CEILING.to_f64() > 1e100 {
+        true => "positive, 3.1e-151 to 3.2e150",
+        false => "positive, 2.2e-19 to 4.6e18",
     }
 }

@@ -14,16 +14,21 @@ pub(crate) struct Numbers<T> {
 }
 
 impl<T: Kernels> Numbers<T> {
+    /// These, in the order of an estimator.
+    pub fn new(numbers: Vec<T>, counts: Vec<u64>) -> Self {
+        Self { numbers, counts, next: (0, 0), give: false }
+    }
+
     /// Those of `estimator`.
     pub fn of(estimator: &mut AnyEstimator<T>) -> Self {
-        let mut own = Self { numbers: Vec::new(), counts: Vec::new(), next: (0, 0), give: false };
+        let mut own = Self::new(Vec::new(), Vec::new());
         estimator.visit(&mut own);
         own
     }
 
-    /// Gives an estimator of the same kind these numbers, of which there are as many.
-    pub fn give(numbers: Vec<T>, counts: Vec<u64>, estimator: &mut AnyEstimator<T>) {
-        estimator.visit(&mut Self { numbers, counts, next: (0, 0), give: true });
+    /// Gives them to an estimator of the same kind, which has as many.
+    pub fn give(self, estimator: &mut AnyEstimator<T>) {
+        estimator.visit(&mut Self { next: (0, 0), give: true, ..self });
     }
 }
 

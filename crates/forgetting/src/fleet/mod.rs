@@ -11,6 +11,7 @@ mod kind;
 mod part;
 mod priors;
 mod read;
+mod size;
 mod starts;
 mod transfer;
 mod units;
@@ -180,51 +181,6 @@ impl<T: Kernels> Fleet<T> {
         Ok(self.all(blocks, scratch))
     }
 
-    /// Adds `count` streams after the last.
-    ///
-    /// # Errors
-    /// [`Error::Memory`] when there is none; nothing has changed.
-    pub fn grow(&mut self, count: usize) -> Result<(), Error> {
-        let streams = self.count.checked_add(count).ok_or(Error::Memory)?;
-        let blocks = streams.div_ceil(Line::<T>::LANES);
-        let length = self.layout.length();
-        let lines = blocks.checked_mul(length).ok_or(Error::Memory)?;
-        reserve(&mut self.lines, lines)?;
-        reserve(&mut self.offered, blocks)?;
-        reserve(&mut self.unused, streams)?;
-        if let Some(units) = &mut self.units {
-            units.reserve(blocks, streams)?;
-        }
-        self.priors.reserve(streams)?;
-        if !self.factors.is_empty() {
-            reserve(&mut self.factors, streams)?;
-            reserve(&mut self.strengths, blocks)?;
-            self.factors.resize(streams, self.factor());
-            self.strengths.resize(blocks, Line::splat(strength(self.form)));
-        }
-        self.offered.resize(blocks, 0);
-        for stream in self.count..streams {
-            // a new lane of the last block is offered what the others are
-            self.unused.push(self.offered[stream / Line::<T>::LANES]);
-        }
-        if let Some(units) = &mut self.units {
-            units.grow(&self.offered, streams);
-            if self.fresh.prior().is_of_data() {
-                units.following += count;
-            }
-        }
-        let old = self.lines.len() / length;
-        self.lines.resize(lines, Line::splat(T::ZERO));
-        for lines in self.lines[old * length..].chunks_exact_mut(length) {
-            for (line, &x) in lines.iter_mut().zip(&self.start) {
-                *line = Line::splat(x);
-            }
-        }
-        self.priors.grow(count);
-        self.count = streams;
-        Ok(())
-    }
-
     /// The λ of a new stream.
     fn factor(&self) -> T {
         self.fresh.rate().constant().unwrap_or(T::ONE)
@@ -246,14 +202,20 @@ impl<T: Kernels> Fleet<T> {
     /// If there is no such stream.
     pub fn get(&self, stream: usize) -> AnyEstimator<T> {
         let mut estimator = self.starts().estimator(stream);
+        self.state(stream).give(&mut estimator);
+        estimator
+    }
+
+    /// The state of a stream, in the order in which an estimator shows it.
+    fn state(&self, stream: usize) -> Numbers<T> {
         let (mut numbers, mut counts) =
             (self.numbers(stream).collect::<Vec<_>>(), Vec::from([self.samples(stream)]));
-        if let Some(units) = self.units.as_ref().filter(|_| estimator.prior().is_of_data()) {
+        let follows = self.priors.get(stream).is_of_data();
+        if let Some(units) = self.units.as_ref().filter(|_| follows) {
             numbers.extend(units.numbers(stream));
             counts.push(units.measured(stream, &self.offered));
         }
-        Numbers::give(numbers, counts, &mut estimator);
-        estimator
+        Numbers::new(numbers, counts)
     }
 
     /// The numbers of a stream.

@@ -56,7 +56,7 @@ impl<T: Kernels> Part<'_, T> {
         let offered = self.streams.offered[block];
         let without = [self.streams.unused[stream], units.unmeasured[stream]];
         let counts = without.iter().map(|count| offered.wrapping_sub(*count)).collect();
-        Numbers::give(numbers, counts, &mut estimator);
+        Numbers::new(numbers, counts).give(&mut estimator);
         Some(estimator)
     }
 

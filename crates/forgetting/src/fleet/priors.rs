@@ -47,6 +47,18 @@ impl<T: Kernels> Priors<T> {
         }
     }
 
+    /// The first `count` alone.
+    pub fn truncate(&mut self, count: usize) {
+        self.of.truncate(count);
+        let used = self.of.iter().max().map_or(1, |&last| last + 1);
+        self.different.truncate(used);
+    }
+
+    /// Whether new streams start as those of `others`, bit for bit.
+    pub fn are_common(&self, others: &Self) -> bool {
+        same(&self.different[0], &others.different[0])
+    }
+
     /// Gives a stream, one of `count`, this prior.
     ///
     /// # Errors

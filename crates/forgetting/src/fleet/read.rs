@@ -3,24 +3,33 @@
 use super::{Fleet, Line};
 use crate::error::Error;
 use alloc::borrow::Cow;
+use alloc::vec::Vec;
 use forgetting_kernels::kernel::lanes::Predict;
 use forgetting_kernels::Kernels;
 
 impl<T: Kernels> Fleet<T> {
-    /// φθ of each stream, for n numbers `phi` each.
+    /// φθ of the streams from `first` on, one for each place in `prediction`, for n numbers `phi` each.
     ///
     /// # Errors
     /// [`Error::Length`] names what does not fit.
-    pub fn predict(&self, phi: &[T], prediction: &mut [T]) -> Result<(), Error> {
-        let n = self.parameters();
-        Error::check_length("phi", phi.len(), self.count * n)?;
-        Error::check_length("prediction", prediction.len(), self.count)?;
-        let layout = self.layout;
+    ///
+    /// # Panics
+    /// Unless `first` is a multiple of 64.
+    pub fn predict(&self, first: usize, phi: &[T], prediction: &mut [T]) -> Result<(), Error> {
+        assert!(first.is_multiple_of(64), "the first stream is that of a block");
+        let (n, layout) = (self.parameters(), self.layout);
+        Error::check_length("phi", phi.len(), prediction.len() * n)?;
+        if prediction.len() > self.count.saturating_sub(first) {
+            Error::check_length("prediction", prediction.len(), self.count.saturating_sub(first))?;
+        }
+        let first = first / Line::<T>::LANES;
+        let blocks = first..first + prediction.len().div_ceil(Line::<T>::LANES);
+        let lines = &self.lines[blocks.start * layout.length()..blocks.end * layout.length()];
         let lines: Cow<'_, [Line<T>]> = match &self.units {
-            None => Cow::Borrowed(&self.lines),
+            None => Cow::Borrowed(lines),
             Some(units) => {
-                let mut lines = self.lines.clone();
-                for (b, block) in lines.chunks_exact_mut(layout.length()).enumerate() {
+                let mut lines = Vec::from(lines);
+                for (b, block) in blocks.zip(lines.chunks_exact_mut(layout.length())) {
                     for (theta, reciprocal) in
                         block[layout.theta()..].iter_mut().zip(units.block(b))
                     {
@@ -37,32 +46,28 @@ impl<T: Kernels> Fleet<T> {
         Ok(())
     }
 
-    /// θ of each stream, n numbers after n numbers.
+    /// θ of the streams from `first` on, n numbers after n numbers, as many as there is room for.
     ///
     /// # Panics
-    /// Unless there is room for as many.
-    pub fn theta(&self, theta: &mut [T]) {
-        let (n, first) = (self.parameters(), self.layout.theta());
-        for (b, (place, block)) in self.blocks(theta, n).enumerate() {
-            for (i, line) in block[first..first + n].iter().enumerate() {
-                for (lane, theta) in place.chunks_exact_mut(n).enumerate() {
-                    theta[i] = line.get(lane) * self.reciprocal(b, i, lane);
-                }
+    /// If there are not so many streams.
+    pub fn theta(&self, first: usize, theta: &mut [T]) {
+        let (n, start) = (self.parameters(), self.layout.theta());
+        for (place, (b, block, lane)) in theta.chunks_exact_mut(n).zip(self.lanes(first)) {
+            for (i, theta) in place.iter_mut().enumerate() {
+                *theta = block[start + i].get(lane) * self.reciprocal(b, i, lane);
             }
         }
     }
 
-    /// The diagonal of P of each stream, n numbers after n numbers.
+    /// The diagonal of P of the streams from `first` on, n numbers after n numbers, as many as there is room for.
     ///
     /// # Panics
-    /// Unless there is room for as many.
-    pub fn variances(&self, variances: &mut [T]) {
+    /// If there are not so many streams.
+    pub fn variances(&self, first: usize, variances: &mut [T]) {
         let n = self.parameters();
-        for (b, (place, block)) in self.blocks(variances, n).enumerate() {
-            for (lane, variances) in place.chunks_exact_mut(n).enumerate() {
-                for (i, variance) in variances.iter_mut().enumerate() {
-                    *variance = self.variance(block, b, lane, i);
-                }
+        for (place, (b, block, lane)) in variances.chunks_exact_mut(n).zip(self.lanes(first)) {
+            for (i, variance) in place.iter_mut().enumerate() {
+                *variance = self.variance(block, b, lane, i);
             }
         }
     }
@@ -83,24 +88,16 @@ impl<T: Kernels> Fleet<T> {
         })
     }
 
-    /// The largest and the smallest element of D of each stream.
+    /// The largest and the smallest element of D of a stream.
     ///
     /// # Panics
-    /// Unless there is room for as many.
-    pub fn extremes(&self, largest: &mut [T], smallest: &mut [T]) {
-        let (n, first) = (self.parameters(), self.layout.diagonal());
-        for (place, block) in self.blocks(largest, 1) {
-            for (lane, largest) in place.iter_mut().enumerate() {
-                let d = block[first..first + n].iter().map(|line| line.get(lane));
-                *largest = d.fold(T::ZERO, T::max);
-            }
-        }
-        for (place, block) in self.blocks(smallest, 1) {
-            for (lane, smallest) in place.iter_mut().enumerate() {
-                let d = block[first..first + n].iter().map(|line| line.get(lane));
-                *smallest = d.fold(T::CEILING, T::min);
-            }
-        }
+    /// If there is no such stream.
+    pub fn extremes(&self, stream: usize) -> (T, T) {
+        let first = self.layout.diagonal();
+        let (block, lane) = (stream / Line::<T>::LANES, stream % Line::<T>::LANES);
+        let start = block * self.layout.length() + first;
+        let d = self.lines[start..start + self.parameters()].iter().map(|line| line.get(lane));
+        d.fold((T::ZERO, T::CEILING), |(most, least), d| (most.max(d), least.min(d)))
     }
 
     /// The largest element of D that a stream started with.
@@ -115,14 +112,13 @@ impl<T: Kernels> Fleet<T> {
         self.priors.get(stream).factor().largest()
     }
 
-    /// The place of `width` numbers for each stream of a block, with the numbers of the block.
-    fn blocks<'a>(
-        &'a self,
-        places: &'a mut [T],
-        width: usize,
-    ) -> impl Iterator<Item = (&'a mut [T], &'a [Line<T>])> {
-        assert!(places.len() == width * self.count, "there is room for each stream");
-        let blocks = self.lines.chunks_exact(self.layout.length());
-        places.chunks_mut(width * Line::<T>::LANES).zip(blocks)
+    /// The block of each stream from `first` on: its number, its lines and which lane is the stream's.
+    fn lanes(&self, first: usize) -> impl Iterator<Item = (usize, &[Line<T>], usize)> {
+        let length = self.layout.length();
+        (first..).map(move |stream| {
+            assert!(stream < self.count, "there is a stream for each place");
+            let (b, lane) = (stream / Line::<T>::LANES, stream % Line::<T>::LANES);
+            (b, &self.lines[b * length..(b + 1) * length], lane)
+        })
     }
 }

@@ -7,7 +7,7 @@ use super::{check_kind, extend, form_of, strength, Fleet, Layout, Line, Streams,
 use crate::covariance::Prior;
 use crate::error::Error;
 use crate::estimator::{AnyEstimator, Numbers};
-use crate::memory::Memory;
+use crate::memory::{Dynamic, Memory};
 use crate::rates::Rate;
 use forgetting_kernels::Kernels;
 
@@ -22,17 +22,38 @@ impl<T: Kernels> Fleet<T> {
     pub fn put(&mut self, stream: usize, mut estimator: AnyEstimator<T>) -> Result<(), Error> {
         check_kind(&self.fresh, &estimator)?;
         let given = numbers_of(self.layout, &mut estimator)?;
-        let follows = [self.priors.get(stream), estimator.prior()].map(Prior::is_of_data);
+        let lambda = estimator.rate().constant().unwrap_or(T::ONE);
+        let form = form_of(&estimator).unwrap_or(self.form);
+        self.place(stream, &given, (lambda, strength(form)), Some(estimator.prior()))
+    }
+
+    /// Gives a stream this state, forgetting factor with what its form makes of it, and prior, unless
+    /// that is the common one that it has.
+    ///
+    /// # Errors
+    /// [`Error::Memory`], [`Error::Unsupported`] for a prior that the streams cannot have; nothing has
+    /// changed.
+    pub(super) fn place(
+        &mut self,
+        stream: usize,
+        given: &Numbers<T>,
+        factor: (T, T),
+        prior: Option<&Prior<Dynamic<T>>>,
+    ) -> Result<(), Error> {
+        let own = self.priors.get(stream);
+        let follows = [own, prior.unwrap_or(own)].map(Prior::is_of_data);
         if follows[1] {
             self.follow()?;
         }
-        self.set_factor(stream, &estimator)?;
-        self.priors.put(stream, estimator.prior(), self.count)?;
+        self.set_factor(stream, factor)?;
+        if let Some(prior) = prior {
+            self.priors.put(stream, prior, self.count)?;
+        }
         let [before, after] = follows.map(usize::from);
         if let Some(units) = &mut self.units {
             units.following += after;
         }
-        self.whole().set(stream, &given);
+        self.whole().set(stream, given);
         if let Some(units) = &mut self.units {
             units.following -= before;
         }
@@ -81,26 +102,36 @@ impl<T: Kernels> Fleet<T> {
         Parts { rest: streams, following, blocks, scratch }
     }
 
-    /// The λ of a stream.
-    fn set_factor(&mut self, stream: usize, estimator: &AnyEstimator<T>) -> Result<(), Error> {
-        let lambda = estimator.rate().constant().unwrap_or(T::ONE);
+    /// Sets λ of a stream, and what its form makes of it.
+    fn set_factor(&mut self, stream: usize, (lambda, own): (T, T)) -> Result<(), Error> {
         if lambda == self.forgetting_factor(stream) {
             return Ok(());
         }
-        let (factor, own) = (self.factor(), strength(self.form));
+        let (factor, common) = (self.factor(), strength(self.form));
         extend(&mut self.factors, self.count, factor)?;
-        extend(&mut self.strengths, self.offered.len(), Line::splat(own))?;
+        extend(&mut self.strengths, self.offered.len(), Line::splat(common))?;
         self.factors[stream] = lambda;
-        let form = form_of(estimator).unwrap_or(self.form);
         let (block, lane) = (stream / Line::<T>::LANES, stream % Line::<T>::LANES);
-        self.strengths[block].set(lane, strength(form));
+        self.strengths[block].set(lane, own);
         Ok(())
     }
 
-    /// Starts the streams that `mask` names again from their priors, or all.
-    pub fn reset(&mut self, mask: Option<&[bool]>) {
+    /// What the form of a stream makes of its forgetting factor.
+    pub(super) fn strength(&self, stream: usize) -> T {
+        let (block, lane) = (stream / Line::<T>::LANES, stream % Line::<T>::LANES);
+        if self.factors.is_empty() {
+            return strength(self.form);
+        }
+        self.strengths[block].get(lane)
+    }
+
+    /// Starts these streams again from their priors.
+    ///
+    /// # Panics
+    /// If there are no such streams.
+    pub fn reset(&mut self, streams: impl IntoIterator<Item = usize>) {
         let common = Numbers::of(&mut self.fresh.clone());
-        for stream in (0..self.count).filter(|&stream| mask.is_none_or(|mask| mask[stream])) {
+        for stream in streams {
             if self.priors.is_common(stream) {
                 self.whole().set(stream, &common);
             } else {

@@ -52,6 +52,28 @@ impl<T: Kernels> Units<T> {
         reserve(&mut self.due, blocks)
     }
 
+    /// Whether so many blocks fit where the lines are.
+    pub fn has_room(&self, blocks: usize) -> bool {
+        blocks <= self.lines.capacity() / (3 * self.n)
+    }
+
+    /// The first ones alone.
+    pub fn truncate(&mut self, blocks: usize, streams: usize) {
+        self.lines.truncate(blocks * 3 * self.n);
+        self.unmeasured.truncate(streams);
+        self.renewed.truncate(streams);
+        self.settled.truncate(blocks);
+        self.due.truncate(blocks);
+    }
+
+    /// Makes a lane of the last block that of a new stream.
+    pub fn clear(&mut self, lane: usize) {
+        let (first, n) = (self.lines.len() - 3 * self.n, self.n);
+        for (i, line) in self.lines[first..].iter_mut().enumerate() {
+            line.set(lane, if i < n { T::ONE } else { T::ZERO });
+        }
+    }
+
     /// New streams, up to `streams` in blocks that were offered so many samples.
     pub fn grow(&mut self, offered: &[u64], streams: usize) {
         for stream in self.unmeasured.len()..streams {

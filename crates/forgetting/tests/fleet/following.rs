@@ -84,8 +84,8 @@ impl<T: Kernels> Both<T> {
     fn check(&self, what: &str) {
         let n = self.fleet.parameters();
         let [mut theta, mut variances] = [vec![T::ZERO; COUNT * n], vec![T::ZERO; COUNT * n]];
-        self.fleet.theta(&mut theta);
-        self.fleet.variances(&mut variances);
+        self.fleet.theta(0, &mut theta);
+        self.fleet.variances(0, &mut variances);
         for (i, single) in self.singles.iter().enumerate() {
             let bytes = single.to_bytes().unwrap();
             assert_eq!(self.fleet.get(i).to_bytes().unwrap(), bytes, "{what}, stream {i}");
@@ -97,7 +97,7 @@ impl<T: Kernels> Both<T> {
         }
         let phi: Vec<T> = (0..COUNT * n).map(|i| T::from_f64(super::noise(i))).collect();
         let mut predicted = vec![T::ZERO; COUNT];
-        self.fleet.predict(&phi, &mut predicted).unwrap();
+        self.fleet.predict(0, &phi, &mut predicted).unwrap();
         for (i, single) in self.singles.iter().enumerate() {
             let mut own = [T::ZERO];
             single.predict(&phi[i * n..(i + 1) * n], &mut own).unwrap();
@@ -134,7 +134,7 @@ fn streams_come_go_and_start_again() {
         let mut both = Both::<f64>::new(&follower("exponential", n));
         both.take(0..30);
         let mask: Vec<_> = (0..COUNT).map(|i| i % 5 == 2).collect();
-        both.fleet.reset(Some(&mask));
+        both.fleet.reset((0..COUNT).filter(|&i| mask[i]));
         for (single, &mask) in both.singles.iter_mut().zip(&mask) {
             if mask {
                 single.reset();
@@ -151,7 +151,7 @@ fn streams_come_go_and_start_again() {
         both.check("changed");
         both.take(30..90);
         both.check("after");
-        both.fleet.reset(None);
+        both.fleet.reset(0..COUNT);
         both.singles.iter_mut().for_each(Estimator::reset);
         both.check("reset");
     }

@@ -1,6 +1,7 @@
 //! A stream of a fleet is the estimator: bit for bit up to ten parameters, to rounding above.
 
 mod following;
+mod size;
 
 use forgetting::choice::{Defaults, Value, Values};
 use forgetting::fleet::{Fleet, Outputs, Samples, REFUSED};

@@ -1,8 +1,9 @@
 //! How far the estimates of streams that are banks can be trusted.
 
 use super::Banks;
-use crate::estimator::record::{GoOn, Pause};
+use crate::estimator::GoOn;
 use crate::fleet::health::StreamHealth;
+use crate::fleet::pieces::room;
 use crate::number::{Array, Elements, Number};
 use forgetting::Error;
 
@@ -14,20 +15,19 @@ impl<T: Number> Banks<T> {
     /// That of `go_on`.
     pub fn health(&self, go_on: GoOn<'_>) -> Result<StreamHealth, Error> {
         let (n, count) = (self.parameters(), self.count);
-        let (mut largest, mut smallest) = (Vec::with_capacity(count), Vec::with_capacity(count));
-        let mut windup = Vec::with_capacity(count);
+        let (mut largest, mut smallest) = (room(count, 1)?, room(count, 1)?);
+        let mut windup = room(count, 1)?;
         let mut variances = vec![T::ZERO; n];
-        let mut pause = Pause::new(go_on, 1, n);
-        self.try_each(|_, bank| {
+        self.try_each(go_on, |_, bank| {
             bank.variances(&mut variances);
             largest.push(variances.iter().fold(variances[0], |most, &p| most.max(p)));
             smallest.push(variances.iter().fold(variances[0], |least, &p| least.min(p)));
             windup.push(bank.windup());
-            pause.after(1)
+            Ok(())
         })?;
         Ok(StreamHealth {
             windup: Array { shape: vec![count], elements: Elements::Bool(windup) },
-            samples: Array { shape: vec![count], elements: Elements::I64(self.samples()) },
+            samples: Array { shape: vec![count], elements: Elements::I64(self.samples(go_on)?) },
             largest: T::array(largest, &[count]),
             smallest: T::array(smallest, &[count]),
         })

@@ -6,14 +6,16 @@
 
 mod health;
 mod kind;
+mod size;
 mod update;
 
 use super::numbers::{load, sizes, store};
+use super::pieces::{each_stream, room};
+use crate::estimator::GoOn;
 use crate::number::Number;
 use forgetting::bank::Bank;
 use forgetting::{Error, Memory};
 use kind::check_stream;
-use std::convert::Infallible;
 
 /// Streams that are banks of the same members, mixer and prior.
 #[derive(Clone)]
@@ -63,41 +65,6 @@ impl<T: Number> Banks<T> {
         self.fresh.memory().parameters()
     }
 
-    /// Adds `count` new streams.
-    ///
-    /// # Errors
-    /// [`Error::Memory`] when there is none; nothing has changed.
-    pub fn grow(&mut self, count: usize) -> Result<(), Error> {
-        self.reserve(count)?;
-        for _ in 0..count {
-            self.numbers.extend_from_slice(&self.start.0);
-            self.counts.extend_from_slice(&self.start.1);
-        }
-        self.count += count;
-        Ok(())
-    }
-
-    /// Adds copies of the streams of `others`.
-    ///
-    /// # Errors
-    /// Those of [`Banks::check_kind`], and [`Error::Memory`]; nothing has changed.
-    pub fn append(&mut self, others: &Self) -> Result<(), Error> {
-        self.check_kind(&others.fresh)?;
-        self.reserve(others.count)?;
-        self.numbers.extend_from_slice(&others.numbers);
-        self.counts.extend_from_slice(&others.counts);
-        self.count += others.count;
-        Ok(())
-    }
-
-    /// Makes room for `count` more.
-    fn reserve(&mut self, count: usize) -> Result<(), Error> {
-        let (numbers, counts) = self.widths();
-        let room = |width: usize| count.checked_mul(width).ok_or(Error::Memory);
-        self.numbers.try_reserve(room(numbers)?).map_err(|_| Error::Memory)?;
-        self.counts.try_reserve(room(counts)?).map_err(|_| Error::Memory)
-    }
-
     /// How many numbers and counts a stream has.
     fn widths(&self) -> (usize, usize) {
         (self.start.0.len(), self.start.1.len())
@@ -133,57 +100,62 @@ impl<T: Number> Banks<T> {
         Ok(())
     }
 
-    /// Starts again the streams that `mask` names, or all.
-    pub fn reset(&mut self, mask: Option<&[bool]>) {
-        for i in (0..self.count).filter(|&i| mask.is_none_or(|mask| mask[i])) {
-            let (numbers, counts) = self.widths();
-            let own = |width: usize| i * width..(i + 1) * width;
-            self.numbers[own(numbers)].copy_from_slice(&self.start.0);
-            self.counts[own(counts)].copy_from_slice(&self.start.1);
-        }
-    }
-
-    /// Shows every stream, one after the other.
-    fn each(&self, mut show: impl FnMut(usize, &Bank<T>)) {
-        let Ok(()) = self.try_each(|i, bank| {
-            show(i, bank);
-            Ok::<(), Infallible>(())
-        });
-    }
-
-    /// The same, until that fails.
-    fn try_each<E>(&self, mut show: impl FnMut(usize, &Bank<T>) -> Result<(), E>) -> Result<(), E> {
+    /// Shows every stream, one after the other, until that fails or `go_on` says no.
+    fn try_each(
+        &self,
+        go_on: GoOn<'_>,
+        mut show: impl FnMut(usize, &Bank<T>) -> Result<(), Error>,
+    ) -> Result<(), Error> {
         let mut bank = self.fresh.clone();
-        (0..self.count).try_for_each(|i| {
+        each_stream(self.count, self.parameters(), go_on, |i| {
             load(&mut bank, self.state(i));
             show(i, &bank)
         })
     }
 
     /// θ of each stream, n numbers after n numbers.
-    pub fn theta(&self) -> Vec<T> {
-        let mut theta = Vec::with_capacity(self.count * self.parameters());
-        self.each(|_, bank| theta.extend_from_slice(bank.theta()));
-        theta
+    ///
+    /// # Errors
+    /// That of `go_on`.
+    pub fn theta(&self, go_on: GoOn<'_>) -> Result<Vec<T>, Error> {
+        let mut theta = room(self.count, self.parameters())?;
+        self.try_each(go_on, |_, bank| {
+            theta.extend_from_slice(bank.theta());
+            Ok(())
+        })?;
+        Ok(theta)
     }
 
     /// The diagonal of P of each stream, n numbers after n numbers.
-    pub fn variance(&self) -> Vec<T> {
+    ///
+    /// # Errors
+    /// That of `go_on`.
+    pub fn variance(&self, go_on: GoOn<'_>) -> Result<Vec<T>, Error> {
         let n = self.parameters();
-        let mut variances = vec![T::ZERO; n * self.count];
-        self.each(|i, bank| bank.variances(&mut variances[i * n..(i + 1) * n]));
-        variances
+        let mut variances = room(self.count, n)?;
+        self.try_each(go_on, |i, bank| {
+            variances.resize((i + 1) * n, T::ZERO);
+            bank.variances(&mut variances[i * n..]);
+            Ok(())
+        })?;
+        Ok(variances)
     }
 
     /// Samples used by each stream since its start.
-    pub fn samples(&self) -> Vec<i64> {
-        let mut samples = Vec::with_capacity(self.count);
-        self.each(|_, bank| samples.push(bank.samples() as i64));
-        samples
+    ///
+    /// # Errors
+    /// That of `go_on`.
+    pub fn samples(&self, go_on: GoOn<'_>) -> Result<Vec<i64>, Error> {
+        let mut samples = room(self.count, 1)?;
+        self.try_each(go_on, |_, bank| {
+            samples.push(bank.samples() as i64);
+            Ok(())
+        })?;
+        Ok(samples)
     }
 
     /// None: members of a bank forget each in its way.
-    pub fn forgetting_factor(&self) -> Option<Vec<T>> {
-        None
+    pub fn forgetting_factor(&self) -> Result<Option<Vec<T>>, Error> {
+        Ok(None)
     }
 }

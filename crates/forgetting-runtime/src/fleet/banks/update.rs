@@ -1,6 +1,7 @@
 //! Samples of streams that are banks.
 
 use super::Banks;
+use crate::estimator::GoOn;
 use crate::fleet::many::Many;
 use crate::fleet::numbers::{copy, load, store};
 use crate::fleet::one_by_one::{nothing, one_by_one, outcome, Outcome};
@@ -42,9 +43,11 @@ impl<T: Number> Many<T> for Banks<T> {
         plan.update(parts, n, (samples, outputs))
     }
 
-    fn predict(&self, phi: &[T], prediction: &mut [T]) -> Result<(), Error> {
+    fn predict(&self, phi: &[T], prediction: &mut [T], go_on: GoOn<'_>) -> Result<(), Error> {
         let n = self.parameters();
-        self.try_each(|i, bank| bank.predict(&phi[i * n..(i + 1) * n], &mut prediction[i..=i]))
+        self.try_each(go_on, |i, bank| {
+            bank.predict(&phi[i * n..(i + 1) * n], &mut prediction[i..=i])
+        })
     }
 }
 
