@@ -71,6 +71,19 @@ def test_units_and_zeros_change_no_course():
     assert ratio == pytest.approx(1e9, rel=1e-3)
 
 
+@pytest.mark.parametrize("model", [{"formula": "y ~ x"}, {"formula": "y ~ 0 + x"}])
+def test_one_run_says_what_runs_row_by_row_say(model, monkeypatch):
+    """Bit for bit, with rows that are left out."""
+    frame, _ = table.record("random walk 0.05", 4)
+    frame.loc[50:60, "x"] = frame.loc[300, "y"] = np.nan
+    found = []
+    for at_once in (drift.AT_ONCE, 0):
+        monkeypatch.setattr(drift, "AT_ONCE", at_once)
+        found.append(identify(frame, **model).drift)
+    np.testing.assert_array_equal(found[0].mean, found[1].mean)
+    np.testing.assert_array_equal(found[0].variance, found[1].variance)
+
+
 def test_half_of_the_interval_about_zero():
     """By integration: two-sided probability of a normal number with mean m within the width."""
     from scipy.stats import norm
