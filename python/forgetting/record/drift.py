@@ -42,14 +42,12 @@ from forgetting.record.known import Known
 from forgetting.record.moved import Moved, as_run
 from forgetting.record.origin import Origin, constant_of, nowhere
 from forgetting.record.samples import Samples
-from forgetting.record.trace import USED
+from forgetting.record.trace import AT_ONCE, USED
 
 Array = NDArray[np.float64]
 
 NOTED = 2000
 """Rows at which the courses are noted; ± in between is drawn straight."""
-AT_ONCE = 10
-"""Parameters up to which a run over many samples is bit for bit that over one after the other."""
 FAIR = 1.15
 """Times that ± may be too small before it is said; two of them still hold 92 %."""
 
