@@ -45,6 +45,9 @@ FUZZ_SECONDS ?= 3600
 SOAK_STEPS ?= 1000000000
 SOAK_FOLDER ?= $(CURDIR)/build/soak
 
+# hundreds of processes are started: each would compile what it imports where bytecode is not kept
+unexport PYTHONDONTWRITEBYTECODE
+
 .PHONY: accuracy c crates embedded fuzz java soak spark demo test lint rust python build bench bench-full docs sdist stubs web clean
 
 demo: $(VENV)/records

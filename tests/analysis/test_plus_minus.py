@@ -1,12 +1,13 @@
 """How often two printed standard errors hold the true parameter: the table of docs/trust.md."""
 
 import importlib.util
+from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from forgetting.record import drift, identify
+from forgetting.record import drift, identify, trace
 
 TOOL = Path(__file__).resolve().parents[2] / "tools" / "plus_minus.py"
 RECORDS = range(12)
@@ -69,6 +70,26 @@ def test_units_and_zeros_change_no_course():
         assert a.weight == pytest.approx(b.weight, rel=1e-3)
     ratio = other.standard_error[-1, 1, 0] / one.standard_error[-1, 1, 0]
     assert ratio == pytest.approx(1e9, rel=1e-3)
+
+
+@pytest.mark.parametrize("rule", ["auto", "exponential"])
+@pytest.mark.parametrize("model", [{"formula": "y ~ x"}, {"formula": "y ~ 0 + x"}])
+def test_one_run_says_what_runs_row_by_row_say(model, rule, monkeypatch):
+    """Bit for bit, with rows that are left out."""
+    frame, _ = table.record("random walk 0.05", 4)
+    frame.loc[50:60, "x"] = frame.loc[300, "y"] = np.nan
+    found = []
+    for at_once in (trace.AT_ONCE, 0):
+        monkeypatch.setattr(drift, "AT_ONCE", at_once)
+        monkeypatch.setattr(trace, "AT_ONCE", at_once)
+        found.append(identify(frame, rule=rule, **model))
+    one, other = found
+    np.testing.assert_array_equal(one.drift.mean, other.drift.mean)
+    np.testing.assert_array_equal(one.drift.variance, other.drift.variance)
+    for each in fields(one.trace):
+        np.testing.assert_array_equal(
+            getattr(one.trace, each.name), getattr(other.trace, each.name)
+        )
 
 
 def test_half_of_the_interval_about_zero():

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 
 from .linalg import CONVERGED, ZERO, Matrix, Real, dot, identity, matrix, to_float, transpose
@@ -11,6 +13,7 @@ SWEEPS = 60
 SEPARATED = Real(2) ** -20
 # 2**-40 (or better) after double precision becomes 2**-80, 2**-160, below rounding.
 REFINEMENTS = 3
+ITERATIONS = 10
 
 
 def rotation(app: Real, aqq: Real, apq: Real) -> tuple[Real, Real]:
@@ -35,9 +38,10 @@ def eigen_symmetric(a: Matrix) -> tuple[list[Real], Matrix]:
     and cyclic Jacobi does what is left (clusters). Both converge quadratically from there.
     """
     n = a.nrows()
-    v = _orthogonal(matrix(np.linalg.eigh(to_float(a))[1]), 4)
+    v = matrix(np.linalg.eigh(to_float(a))[1])
     for _ in range(REFINEMENTS):
-        v = _orthogonal(v + v * _correction((transpose(v) * a * v).mid().tolist()), 2)
+        v = _refined(a, v)
+    v = _orthogonal(v)
     work = (transpose(v) * a * v).mid().tolist()
     vectors = transpose(v).tolist()
     limit = max(abs(x) for row in work for x in row) * CONVERGED
@@ -51,25 +55,43 @@ def eigen_symmetric(a: Matrix) -> tuple[list[Real], Matrix]:
     return [work[i][i] for i in order], ordered.mid()
 
 
-def _orthogonal(v: Matrix, iterations: int) -> Matrix:
-    """Newton-Schulz: every iteration squares the departure from orthogonality."""
-    three = 3 * identity(v.nrows())
-    for _ in range(iterations):
-        v = (v * (three - transpose(v) * v) / 2).mid()
-    return v
+def _refined(a: Matrix, v: Matrix) -> Matrix:
+    """One step for eigenvectors and their orthogonality at once (Ogita & Aishima 2018).
 
-
-def _correction(work: list[list[Real]]) -> Matrix:
-    """First-order rotation that diagonalises the well-separated pairs of ``work``."""
-    n = len(work)
-    turn = [[Real(0)] * n for _ in range(n)]
+    With G = V^T V, S = V^T A V and the eigenvalues l_i = s_ii / g_ii, the new V is V (I + E).
+    E_ij = (s_ij - l_j g_ij) / (l_j - l_i) turns a separated pair into eigenvectors; elsewhere
+    E = (I - G) / 2 only makes V orthogonal.
+    """
+    n, left = v.nrows(), transpose(v)
+    departure = (left * v - identity(n)).mid()  # G - I
+    lean, work = departure.tolist(), (left * a * v).mid().tolist()
+    step = (departure / -2).tolist()
+    values = [work[i][i] / (1 + lean[i][i]) for i in range(n)]
     for i in range(n - 1):
         for j in range(i + 1, n):
-            gap = work[j][j] - work[i][i]
-            if abs(work[i][j]) < SEPARATED * abs(gap):
-                turn[i][j] = work[i][j] / gap
-                turn[j][i] = -turn[i][j]
-    return Matrix(turn).mid()
+            gap, off = values[j] - values[i], work[i][j]
+            if abs(off) < SEPARATED * abs(gap):
+                step[i][j] = (off - values[j] * lean[i][j]) / gap
+                step[j][i] = (values[i] * lean[i][j] - off) / gap
+    return (v + v * Matrix(step)).mid()
+
+
+def _orthogonal(v: Matrix) -> Matrix:
+    """Newton-Schulz: every iteration squares the departure from orthogonality."""
+    near, three = _about_identity(v.nrows())
+    for _ in range(ITERATIONS):
+        gram = (transpose(v) * v).mid()
+        if near.contains(gram):
+            return v
+        v = (v * (three - gram) / 2).mid()
+    raise ArithmeticError("Newton-Schulz iteration did not converge")
+
+
+@cache
+def _about_identity(n: int) -> tuple[Matrix, Matrix]:
+    """I, with what rounding leaves of it as radius, and 3 I."""
+    rounding = Real(0, CONVERGED)
+    return identity(n) + Matrix([[rounding] * n for _ in range(n)]), 3 * identity(n)
 
 
 def _sweep(work: list[list[Real]], vectors: list[list[Real]], limit: Real) -> bool:

@@ -7,6 +7,7 @@ the self-check of the references measures what is left of them.
 
 from __future__ import annotations
 
+from functools import cache
 from operator import mul
 
 import flint
@@ -30,7 +31,9 @@ def matrix(values: object) -> Matrix:
     return Matrix(values.tolist() if isinstance(values, np.ndarray) else values)
 
 
+@cache
 def identity(n: int) -> Matrix:
+    """Not to be changed in place: there is one of each size."""
     return Matrix([[int(i == j) for j in range(n)] for i in range(n)])
 
 
@@ -92,12 +95,19 @@ def cholesky(a: Matrix) -> Matrix:
     for j, given in enumerate(a.tolist()):
         row: list[Real] = []
         for above, value in zip(low, given, strict=False):
-            row.append(((value - dot(row, above)) / above[-1]).mid())
-        pivot = (given[j] - dot(row, row)).mid()
+            row.append((_less(value, row, above) / above[-1]).mid())
+        pivot = _less(given[j], row, row).mid()
         if not pivot > 0:
             raise ArithmeticError(f"not positive definite: pivot {j} is {pivot}")
         low.append([*row, pivot.sqrt().mid()])
-    return Matrix([row + [Real(0)] * (len(low) - len(row)) for row in low])
+    return Matrix([row + [0] * (len(low) - len(row)) for row in low])
+
+
+def _less(value: Real, a: list[Real], b: list[Real]) -> Real:
+    """``value`` less the products, up to the end of the shorter list."""
+    for x, y in zip(a, b, strict=False):
+        value -= x * y
+    return value
 
 
 def to_float(a: Matrix) -> np.ndarray:

@@ -29,6 +29,8 @@ ROUNDING = 1e-12
 #: A parameter counts as informed while the unexcited directions make up no more than this share
 #: of its (M⁻¹)_ii.
 UNEXCITED_SHARE = 0.1
+#: Numbers of sums whose eigenvectors are computed by one call.
+TOGETHER = 20_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,14 +157,17 @@ def excited_by(
     whole_record = np.square(root).sum(axis=1)
     trailing = _Trailing(information, chosen, window)
     rank = np.empty(len(chosen), dtype=np.int64)
-    informed = np.empty((len(chosen), len(root)), dtype=bool)
-    for place, k in enumerate(chosen):
-        part = trailing.sum(place, k)
-        values, vectors = np.linalg.eigh(root.T @ part @ root / window)
+    informed = np.ones((len(chosen), len(root)), dtype=bool)
+    many = max(1, TOGETHER // len(root) ** 2)
+    for start in range(0, len(chosen), many):
+        places = range(start, min(start + many, len(chosen)))
+        parts = np.array([trailing.sum(place, chosen[place]) for place in places])
+        values, vectors = np.linalg.eigh(root.T @ parts @ root / window)
         silent = values < share
-        rank[place] = np.count_nonzero(~silent)
-        unexcited = np.square(root @ vectors[:, silent]).sum(axis=1)
-        informed[place] = unexcited <= UNEXCITED_SHARE * whole_record
+        rank[start : places.stop] = np.count_nonzero(~silent, axis=1)
+        for i in np.flatnonzero(silent.any(axis=1)):
+            unexcited = np.square(root @ vectors[i][:, silent[i]]).sum(axis=1)
+            informed[start + i] = unexcited <= UNEXCITED_SHARE * whole_record
     return Excited(chosen, rank, informed & ~never, window, share)
 
 

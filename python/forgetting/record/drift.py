@@ -42,7 +42,7 @@ from forgetting.record.known import Known
 from forgetting.record.moved import Moved, as_run
 from forgetting.record.origin import Origin, constant_of, nowhere
 from forgetting.record.samples import Samples
-from forgetting.record.trace import USED
+from forgetting.record.trace import AT_ONCE, USED
 
 Array = NDArray[np.float64]
 
@@ -195,6 +195,35 @@ def along(
     """θ and σ² P_ii of a course after each of the rows, (K, n, m) each, as measured from zero."""
     estimator = walk(samples, course.process_noise, settings)
     known.teach(estimator, samples.regressors, known.prior_values(samples.regressors))
+    at_once = len(rows) == len(samples) and samples.parameters <= AT_ONCE
+    if at_once and samples.samples.origin is None:
+        thetas, spreads = every_row(samples, here, course, estimator, settings)
+    else:
+        thetas, spreads = row_by_row(samples, here, course, rows, estimator, settings)
+    return here.theta(thetas), spreads
+
+
+def every_row(
+    samples: Moved, here: Origin, course: Course, estimator: Any, settings: dict[str, Any]
+) -> tuple[Array, Array]:
+    """As `row_by_row`, in one run."""
+    n, m, change = samples.parameters, samples.targets, here.change()
+    phi, y = as_run(*after(samples, course, 0, len(samples)), settings["dtype"])
+    found = estimator.run(phi, y, outputs=(*OUTPUTS, "theta", "covariance"), missing="skip")
+    thetas = np.array(found.theta, dtype=np.float64).reshape(-1, n, m)
+    spreads = ((change @ found.covariance) * change).sum(axis=2)
+    return thetas, spreads[:, :, None] * variances(found, n)[:, None]
+
+
+def row_by_row(
+    samples: Moved,
+    here: Origin,
+    course: Course,
+    rows: NDArray[np.int64],
+    estimator: Any,
+    settings: dict[str, Any],
+) -> tuple[Array, Array]:
+    """θ of the estimator and σ² P_ii after each of the rows, (K, n, m) each."""
     n, m, origin = samples.parameters, samples.targets, samples.samples.origin
     change = here.change()
     noise, thetas, spreads, start = Noise(n, m), [], [], 0
@@ -209,7 +238,7 @@ def along(
         spread = ((change @ estimator.covariance) * change).sum(axis=1)
         spreads.append(spread[:, None] * noise.variance)
         start = row + 1
-    return here.theta(np.array(thetas)), np.array(spreads)
+    return np.array(thetas), np.array(spreads)
 
 
 def after(samples: Moved, course: Course, start: int, stop: int) -> tuple[Array, Array]:
@@ -238,6 +267,16 @@ class Noise:
     def variance(self) -> Array:
         """σ² of each output, (m,); NaN before there is any."""
         return self.sum / self.count if self.count else np.full_like(self.sum, np.nan)
+
+
+def variances(found: Any, parameters: int) -> Array:
+    """The variance of `Noise` after each sample of a run, (T, m)."""
+    used = found.skipped == USED
+    used &= np.cumsum(used) > parameters
+    error = np.asarray(found.error, dtype=np.float64).reshape(len(used), -1)
+    squares = np.where(used[:, None], error**2 / (1.0 + found.leverage[:, None]), 0.0)
+    with np.errstate(invalid="ignore"):  # 0/0 before there is any
+        return np.asarray(np.cumsum(squares, axis=0) / np.cumsum(used)[:, None])
 
 
 def middle(samples: Samples, moves: bool) -> Origin:

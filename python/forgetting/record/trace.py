@@ -27,6 +27,8 @@ CHEAP = 200_000_000
 """Cubes of parameters that all eigenvalues together may cost: about a second."""
 FEWEST = 20
 """Pieces however many parameters there are."""
+AT_ONCE = 10
+"""Parameters up to which a run over many samples is bit for bit that over one after the other."""
 ROOM = 4_000_000
 """Numbers that P of all samples of a piece may be, where it is needed."""
 
@@ -121,11 +123,15 @@ def run(
     total, n = len(samples), samples.parameters
     last = LastTime()
     history = History(total, n, samples.targets, isinstance(estimator, fg.Bank))
-    wanted = (*history.outputs, "covariance") if hold else history.outputs
+    parts = chunks(total, n, ROOM // n**2 if hold else total)
+    at_once = len(parts) == total and n <= AT_ONCE and hold is None
+    if at_once:  # a piece for every row: one call, and P after each from it
+        parts = [(0, total)]
+    wanted = (*history.outputs, "covariance") if hold or at_once else history.outputs
     more: dict[str, Any] = {} if bounds is None else {"bounds": bounds}
     rows: list[int] = []
     covariances: list[NDArray[Any]] = []
-    for start, stop in chunks(total, n, ROOM // n**2 if hold else total):
+    for start, stop in parts:
         part = slice(start, stop)
         try:
             phi, y = as_run(*samples.rows(part), estimator.dtype)
@@ -135,16 +141,16 @@ def run(
             raise type(error)(in_rows(str(error), start)) from None
         if time is not None:
             last.note(time[part], samples.complete[part])
-        history.put(start, stop, piece)
+        history.put(start, stop, piece, at_once)
         if hold is not None:
             hold(history.arrays["theta"][start:stop], piece.covariance, start)
-        rows.append(stop - 1)
-        covariances.append(estimator.covariance.astype(np.float64))
+        rows += range(stop) if at_once else [stop - 1]
+        covariances += list(piece.covariance) if at_once else [estimator.covariance]
         if progress is not None:
             progress(stop, total)
     # all in the units of the end: those of before would show as steps
     units = np.ones(n) if estimator.units is None else estimator.units
-    path = np.array(covariances)
+    path: NDArray[Any] = np.array(covariances, dtype=np.float64)
     return Trace(
         **history.arrays,
         weights=np.asarray(estimator.weights) if isinstance(estimator, fg.Bank) else None,
@@ -175,10 +181,11 @@ class History:
         """What a run is asked for."""
         return (*self.names, "weights") if self.bank else self.names
 
-    def put(self, start: int, stop: int, piece: Any) -> None:
-        """Put what a piece of the run kept in its place."""
+    def put(self, start: int, stop: int, piece: Any, at_once: bool = False) -> None:
+        """Put what a piece of the run kept in its place; `at_once`, each row is a piece."""
         if self.bank:
-            self.weights.append(np.asarray(piece.weights, dtype=np.float64).mean(axis=0))
+            weights = np.asarray(piece.weights, dtype=np.float64)
+            self.weights += list(weights) if at_once else [weights.mean(axis=0)]
         for name in self.names:
             place = self.arrays[name][start:stop]
             place[...] = getattr(piece, name).reshape(place.shape)

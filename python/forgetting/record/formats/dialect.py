@@ -70,6 +70,13 @@ def split(line: str, separator: str) -> list[str]:
     return [cell.strip() for cell in row]
 
 
+def separates(separator: str, lines: Sequence[str]) -> bool:
+    """Whether any line may have more than one cell; true of "", which stands for one column."""
+    if separator == " ":
+        return any(len(line.split()) > 1 for line in lines)
+    return any(separator in line for line in lines)
+
+
 def is_aside(line: str) -> bool:
     """Whether a line is blank or a comment."""
     return not line.strip() or line.lstrip(" ").startswith(COMMENT)
@@ -84,7 +91,7 @@ def dialect(lines: Sequence[str]) -> Dialect | None:
         None where no line has a number or a time.
     """
     best, worth = None, 0.0
-    for separator in SEPARATORS:
+    for separator in filter(lambda each: separates(each, lines), SEPARATORS):
         run, above = body([None if is_aside(each) else split(each, separator) for each in lines])
         if run is None or (separator and len(run.kinds) < 2):
             continue
@@ -108,7 +115,8 @@ def body(rows: Sequence[list[str] | None]) -> tuple[Run | None, list[str] | None
         kinds = tuple(map(cells.kind, row))
         merged = merge(runs[-1].kinds, kinds) if runs else None
         if merged is not None:
-            runs[-1] = Run(runs[-1].first, [*runs[-1].rows, row], merged)
+            runs[-1].rows.append(row)
+            runs[-1] = Run(runs[-1].first, runs[-1].rows, merged)
         elif valued(kinds):
             runs.append(Run(number, [row], kinds))
             above[number] = previous
