@@ -7,6 +7,7 @@
 
 mod before;
 mod following;
+mod grow;
 mod kind;
 mod part;
 mod priors;
@@ -32,6 +33,7 @@ use forgetting_kernels::kernel::lanes::streams::Streams;
 use forgetting_kernels::kernel::lanes::SCRATCH;
 use forgetting_kernels::kernel::layout::FEW;
 use forgetting_kernels::Kernels;
+use grow::extend;
 use priors::Priors;
 use starts::Starts;
 use transfer::numbers_of;
@@ -180,51 +182,6 @@ impl<T: Kernels> Fleet<T> {
         Ok(self.all(blocks, scratch))
     }
 
-    /// Adds `count` streams after the last.
-    ///
-    /// # Errors
-    /// [`Error::Memory`] when there is none; nothing has changed.
-    pub fn grow(&mut self, count: usize) -> Result<(), Error> {
-        let streams = self.count.checked_add(count).ok_or(Error::Memory)?;
-        let blocks = streams.div_ceil(Line::<T>::LANES);
-        let length = self.layout.length();
-        let lines = blocks.checked_mul(length).ok_or(Error::Memory)?;
-        reserve(&mut self.lines, lines)?;
-        reserve(&mut self.offered, blocks)?;
-        reserve(&mut self.unused, streams)?;
-        if let Some(units) = &mut self.units {
-            units.reserve(blocks, streams)?;
-        }
-        self.priors.reserve(streams)?;
-        if !self.factors.is_empty() {
-            reserve(&mut self.factors, streams)?;
-            reserve(&mut self.strengths, blocks)?;
-            self.factors.resize(streams, self.factor());
-            self.strengths.resize(blocks, Line::splat(strength(self.form)));
-        }
-        self.offered.resize(blocks, 0);
-        for stream in self.count..streams {
-            // a new lane of the last block is offered what the others are
-            self.unused.push(self.offered[stream / Line::<T>::LANES]);
-        }
-        if let Some(units) = &mut self.units {
-            units.grow(&self.offered, streams);
-            if self.fresh.prior().is_of_data() {
-                units.following += count;
-            }
-        }
-        let old = self.lines.len() / length;
-        self.lines.resize(lines, Line::splat(T::ZERO));
-        for lines in self.lines[old * length..].chunks_exact_mut(length) {
-            for (line, &x) in lines.iter_mut().zip(&self.start) {
-                *line = Line::splat(x);
-            }
-        }
-        self.priors.grow(count);
-        self.count = streams;
-        Ok(())
-    }
-
     /// The λ of a new stream.
     fn factor(&self) -> T {
         self.fresh.rate().constant().unwrap_or(T::ONE)
@@ -284,18 +241,4 @@ fn strength<T: Kernels>(form: Form<T>) -> T {
         Form::Along { weight, .. } => weight,
         Form::Walk { noise, .. } => noise,
     }
-}
-
-/// Room for `length` numbers in all.
-fn reserve<X>(numbers: &mut Vec<X>, length: usize) -> Result<(), Error> {
-    let more = length.saturating_sub(numbers.len());
-    numbers.try_reserve(more).map_err(|_| Error::Memory)
-}
-
-fn extend<X: Clone>(numbers: &mut Vec<X>, length: usize, x: X) -> Result<(), Error> {
-    reserve(numbers, length)?;
-    if numbers.len() < length {
-        numbers.resize(length, x);
-    }
-    Ok(())
 }
