@@ -236,9 +236,9 @@ impl<M: Memory, F: Forgetting<M>> Forgetting<M> for CovarianceResetting<M, F> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::{covariance, forget, forget_with_errors, memory, Dense};
     use crate::memory::Dynamic;
     use crate::rules::Subspace;
+    use crate::testing::{covariance, forget, forget_with_errors, memory, Dense};
 
     type Rule = CovarianceResetting<Dynamic<f64>, Subspace<Dynamic<f64>>>;
 

@@ -31,11 +31,11 @@ pub use function::{ForgettingMatrix, Named};
 use super::{Forgetting, Forgotten, Step};
 use crate::choice::{About, Guarantee, Guarantees, Kind, Parameter, Range, Value, Values};
 use crate::covariance::dense::check_symmetric;
-use crate::memory::state::{State, Visitor};
 use crate::error::Error;
+use crate::memory::state::{State, Visitor};
 use crate::memory::Memory;
-use forgetting_kernels::Real;
 use core::marker::PhantomData;
+use forgetting_kernels::Real;
 
 const FORGETTING_MATRIX: Parameter = Parameter::elements(
     "forgetting_matrix",
@@ -160,11 +160,11 @@ impl<M: Memory> State<M::Real> for Buffers<M> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::{covariance, forget, memory, two_rows};
     use crate::covariance::Prior;
     use crate::estimator::Estimator;
     use crate::memory::Dynamic;
     use crate::rates::Constant;
+    use crate::testing::{covariance, forget, memory, two_rows};
     use crate::weightings::Equal;
 
     type Function = fn(&[f64], &[f64], &[f64], &mut [f64]) -> Result<(), Error>;
