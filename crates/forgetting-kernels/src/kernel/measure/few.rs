@@ -12,7 +12,7 @@ use crate::number::{copy_some, Real};
 
 /// Forgets and measures, unless there is no room for P.
 #[inline(always)]
-pub(super) fn few<T: Real, V: Vector<T>>(
+pub(super) fn measure<T: Real, V: Vector<T>>(
     place: &mut Place<'_, T>,
     form: Form<T>,
     f: &[T],
@@ -24,7 +24,7 @@ pub(super) fn few<T: Real, V: Vector<T>>(
     with_few!(f.len(), of::<T, V>(place, form, f, squares))
 }
 
-/// One kernel for all of them.
+/// For any of these numbers of parameters.
 #[inline(always)]
 fn of_any<T: Real, V: Vector<T>>(
     Place { columns, diagonal, scratch, bound }: &mut Place<'_, T>,
@@ -42,6 +42,7 @@ fn of_any<T: Real, V: Vector<T>>(
     Some(measured(&gain, forgot))
 }
 
+/// For N parameters.
 #[inline(always)]
 fn of<T: Real, V: Vector<T>, const N: usize>(
     Place { columns, diagonal, scratch, bound }: &mut Place<'_, T>,

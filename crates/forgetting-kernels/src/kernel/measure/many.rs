@@ -11,7 +11,7 @@ use crate::number::Real;
 
 /// Forgets and measures, unless there is no room for P.
 #[inline(always)]
-pub fn many<T: Real, V: Vector<T>, const GROUP: usize>(
+pub fn measure<T: Real, V: Vector<T>, const GROUP: usize>(
     place: &mut Place<'_, T>,
     form: Form<T>,
     f: &[T],
@@ -19,7 +19,7 @@ pub fn many<T: Real, V: Vector<T>, const GROUP: usize>(
 ) -> Option<Measured<T>> {
     let growth = match form {
         Form::Scale { growth } => growth,
-        Form::Along { weight, .. } => match along_many::<T, V, GROUP>(place, weight, f, squares)? {
+        Form::Along { weight, .. } => match along::<T, V, GROUP>(place, weight, f, squares)? {
             Some(measured) => return Some(measured),
             None => T::ONE,
         },
@@ -27,12 +27,12 @@ pub fn many<T: Real, V: Vector<T>, const GROUP: usize>(
         Form::Walk { .. } => return None,
     };
     make_room(place.bound, growth, T::ZERO)?;
-    Some(scale_many::<T, V, GROUP>(place, growth, f))
+    Some(scale::<T, V, GROUP>(place, growth, f))
 }
 
 /// Forgets along f and measures it; nothing where there is nothing to forget.
 #[inline(always)]
-fn along_many<T: Real, V: Vector<T>, const GROUP: usize>(
+fn along<T: Real, V: Vector<T>, const GROUP: usize>(
     place: &mut Place<'_, T>,
     weight: T,
     f: &[T],
@@ -63,7 +63,7 @@ fn along_many<T: Real, V: Vector<T>, const GROUP: usize>(
 }
 
 #[inline(always)]
-fn scale_many<T: Real, V: Vector<T>, const GROUP: usize>(
+fn scale<T: Real, V: Vector<T>, const GROUP: usize>(
     place: &mut Place<'_, T>,
     growth: T,
     f: &[T],

@@ -57,9 +57,9 @@ impl<T: Real> Kernel<T> for Measure<'_, T> {
         let Self { ref mut place, form, f, squares, .. } = self;
         // wide vectors are for many: without this they would be compiled for few, too
         let measured = if GROUP < 8 && n <= FEW {
-            few::few::<T, V>(place, form, f, squares)?
+            few::measure::<T, V>(place, form, f, squares)?
         } else {
-            many::many::<T, V, GROUP>(place, form, f, squares)?
+            many::measure::<T, V, GROUP>(place, form, f, squares)?
         };
         for (target, theta) in self.theta.chunks_exact_mut(n).enumerate() {
             let error = self.errors[target];

@@ -5,7 +5,7 @@ use super::super::batch::{self, keeps_digits, PerSample, BATCH};
 use super::super::bierman::largest;
 use super::super::copies::copy;
 use super::super::measure::bounds::adds;
-use super::super::measure::many::many as measure;
+use super::super::measure::many::measure;
 use super::super::outcome::Outcome;
 use super::super::together::{arrive, correct, predict};
 use super::super::triangle::leverage_of;
