@@ -6,7 +6,6 @@ use crate::settings::size;
 use crate::shape;
 use crate::update::{check_gamma, noise_of};
 use forgetting::memory::zeros;
-use forgetting::Noise;
 
 /// The sum of φᵀφ over the last samples, in O(n²) a sample.
 #[derive(Clone, Debug)]

@@ -5,7 +5,7 @@ use crate::missing::{is_missing, Missing};
 use crate::number::{Number, View};
 use crate::update::{check_shapes, noise_of, Innovation, UpdateOptions};
 use forgetting::bank::Bank;
-use forgetting::{Dynamic, Memory, Real, Skip};
+use forgetting::{Dynamic, Memory, Skip};
 
 /// What a bank reports of one sample.
 #[derive(Clone, Debug, PartialEq)]
