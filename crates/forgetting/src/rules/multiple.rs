@@ -92,8 +92,8 @@ impl<M: Memory> Multiple<M> {
     pub fn new(factors: &[M::Real], blocks: &[usize], memory: M) -> Result<Self, Error> {
         Error::check_length(FACTORS.name, factors.len(), blocks.len())?;
         let (blocks, mut kept) = (Blocks::new(memory, blocks)?, memory.vector());
-        for (kept, &factor) in kept.as_mut().iter_mut().zip(factors) {
-            *kept = FACTORS.check(factor)?;
+        for (b, &factor) in factors.iter().enumerate() {
+            kept.as_mut()[b] = FACTORS.check(factor).map_err(|error| error.at(b))?;
         }
         Ok(Self { blocks, factors: kept })
     }
@@ -212,7 +212,8 @@ mod tests {
             let factors = [0.9; 2];
             assert!(Multiple::new(&factors[..blocks.len()], blocks, memory).is_err());
         }
-        assert!(Multiple::new(&[0.9, 1.1], &[1, 2], memory).is_err());
+        let second = Multiple::new(&[0.9, 1.1], &[1, 2], memory).unwrap_err();
+        assert!(matches!(second, Error::Value { parameter: "factors", index: Some(1), .. }));
         assert!(Multiple::new(&[0.9], &[1, 2], memory).is_err());
     }
 }
