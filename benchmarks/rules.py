@@ -1,7 +1,8 @@
-"""Every rule, one row: time of a sample over that of exponential forgetting."""
+"""Time of a sample over that of exponential forgetting: every rule, and what is told nothing."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 import numpy as np
@@ -27,10 +28,10 @@ def estimator(n: int, name: str) -> fg.RLS:
     return fg.RLS(n, rule=fg.rule(name, **factor), initial_covariance=P0)
 
 
-def side(n: int, name: str) -> Side:
+def side(n: int, name: str, est: fg.RLS | fg.Bank | None = None) -> Side:
     """`RLS.run` with a rule, again and again over as much of the record as fits a turn."""
     phi, y = record(n)
-    est = estimator(n, name)
+    est = estimator(n, name) if est is None else est
 
     def run(samples: int) -> None:
         est.run(phi[:samples], y[:samples], outputs=["error"])
@@ -69,6 +70,21 @@ def main_rules(plan: Plan) -> Iterator[str]:
     yield table(header, rows)
 
 
+def defaults(plan: Plan) -> Iterator[str]:
+    """`RLS(n)` and `Bank(n)` without any setting."""
+    rows = []
+    for n in plan.of(4, 10, 16, 64, 256):
+        told_nothing = {"RLS(n)": fg.RLS(n), "Bank(n)": fg.Bank(n)}
+        sides = [side(n, "exponential"), *(side(n, *each) for each in told_nothing.items())]
+        race(sides, plan.seconds)
+        base, *others = (each.nanoseconds for each in sides)
+        row = [word for each in others for word in (f"{each / 1e3:.2f}", f"{each / base:.1f}")]
+        rows.append([str(n), f"{base / 1e3:.2f}", *row])
+    header = ["n", "exponential, µs"]
+    header += [word for name in ("RLS(n)", "Bank(n)") for word in (f"{name}, µs", "over it")]
+    yield table(header, rows)
+
+
 def without_functions() -> dict[str, str]:
     """Names and costs of the rules that need nothing from the user."""
     return {
@@ -82,7 +98,7 @@ def all_rules(plan: Plan) -> Iterator[str]:
     """The others at few sizes, and how their time grows."""
     costs = without_functions()
     small, large = plan.of(16, 64), plan.of(128, 256, 512)
-    quadratic = [name for name, cost in costs.items() if cost.split(";")[0] in QUADRATIC]
+    quadratic = [name for name, cost in costs.items() if re.split("[;,]", cost)[0] in QUADRATIC]
     found = {n: times(n, list(costs), 2 * plan.seconds) for n in small}
     found |= {n: times(n, quadratic, 2 * plan.seconds) for n in large}
     rows = []
@@ -101,6 +117,8 @@ def all_rules(plan: Plan) -> Iterator[str]:
 def report(plan: Plan, ledger: Ledger) -> Iterator[str]:
     """Markdown."""
     yield from main_rules(plan)
+    yield ""
+    yield from defaults(plan)
     yield ""
     yield from all_rules(plan)
     left_out = [rule["name"] for rule in fg.rules() if rule["name"] not in without_functions()]

@@ -116,7 +116,8 @@ class Component(Rule):
     ```text
     P̄ = P + blkdiag((1/λ_b − 1) P_bb)        West & Harrison, discounting by component
     F_k = R − P̄⁻¹                            the same as Theorem 1 of GF-RLS has it; the form
-                                             used: P_bb = V diag(d) Vᵀ, one dyad for each v
+                                             used: P_bb = V diag(d) Vᵀ, one dyad for each v; for blocks
+                                             of one parameter the part that the sample depends on
     P̄ = P + (1/λ_bᶜ − 1) P_bb, b = k mod c   cyclic: one of the c blocks a sample, for c samples
     ```
 
@@ -130,11 +131,12 @@ class Component(Rule):
     - P̄ bounded above without excitation (A2): no. In silence the variances of block b grow as
       λ_b⁻ᵏ (windup).
     - P bounded below (A3): if λ_b ≤ λ_max < 1 and φ is bounded.
-    - Cost: O(n³), one dyad for each parameter; O(p n²) with one block of all parameters, which is
-      `exponential`; cyclic O((p + n_b) n²) for blocks of n_b. State: P, and whose turn it is.
+    - Cost: O((p + 1) n²) with blocks of one parameter; O(n³) with larger ones, one dyad for each parameter;
+      O(p n²) with one block of all parameters, which is `exponential`; cyclic O((p + n_b) n²) for blocks of n_b.
+      State: P, in n²/2 numbers more for blocks of one parameter, and whose turn it is.
     - Use it when parameters are known to drift at different rates. `multiple` drops what the
       blocks know of each other and is rarely proper; this rule keeps it. Use the cyclic schedule
-      where n is large and λ_bᶜ is not small: in silence P is that of the other after each cycle,
+      where n and the blocks are large and λ_bᶜ is not small: in silence P is that of the other after each cycle,
       exactly, and the same is guaranteed. k counts the samples used.
 
     Reference: M. West, J. Harrison, *Bayesian Forecasting and Dynamic Models*, 2nd edition,
@@ -202,7 +204,7 @@ class ConstantTrace(Rule):
     - P̄ bounded above without excitation (A2): always: floor·I ≤ P̄ ≤ (n·level − (n − 1)·floor) I.
     - P bounded below (A3): if φ is bounded: by min(1/(β + 1/floor), 1/(β + 1/λ_min(P₀))) for
       φ̄ᵀφ̄ ≤ β I.
-    - Cost: O(n³), for adding c₂ I to the factor. State: P alone.
+    - Cost: O((p + 1) n²). State: P, in n²/2 numbers more, and whether the trace is to be held.
     - Use it where tracking must never slow down and noise is small. The gain stays high however
       long the parameters rest.
 
@@ -1285,9 +1287,10 @@ class RandomWalk(Rule):
                                              for r samples
     P̄ = S_j P S_j + (1 − κʳ)/(1 − κ) w_jᵀ w_j    the same with a bound, for a diagonal Q:
                                              S_j = I but for κ^(r/2) at parameter j
-    F_k = R − P̄⁻¹                            the same as Theorem 1 of GF-RLS has it; the form used: one
-                                             dyad for each row of a root of Q, and for Q = c·I with
-                                             n ≤ 10 one pass of Gram and Schmidt over [U, I]
+    F_k = R − P̄⁻¹                            the same as Theorem 1 of GF-RLS has it; the form used: for
+                                             a diagonal Q, of what was added the part that the sample
+                                             depends on, for Q = c·I with n ≤ 10 one pass of Gram and
+                                             Schmidt over [U, I], else one dyad for each row of a root
     ```
 
     | symbol | name | range | default |
@@ -1301,16 +1304,17 @@ class RandomWalk(Rule):
     - P̄ bounded above without excitation (A2): if a bound b is given: P ≤ b·I makes P̄ ≤ b·I. Without one
       P grows by Q at each sample that brings no information, linearly.
     - P bounded below (A3): if Q > 0 and φ is bounded.
-    - Cost: O((p + r) n²), r the rank of Q; O(n³) for a full one, at n ≤ 10 with Q = c·I about twice that
-      of `exponential`; cyclic O((p + 1) n²). State: P, and whose turn it is.
+    - Cost: O((p + 1) n²) for a number or n numbers, at n ≤ 10 about twice that of `exponential`; O((p + r) n²)
+      for a matrix of rank r; cyclic O((p + 1) n²), and less of it. State: P, in n²/2 numbers more for a diagonal
+      Q, and whose turn it is.
     - Where the time Δt between samples is given, Q is per unit of it: κ^Δt and (1 − κ^Δt)/(1 − κ) Q, or
       Δt Q without a bound, so that gaps without data add up.
     - Q is per sample and in units of P: the variance by which θ moves, over the variance of the
       measurement noise (Γ).
     - Use it when that ratio is known: the estimate is then the optimal one. With P₀ that follows the
       data, Q counts in units of the typical size of each regressor. Use the cyclic schedule where n
-      is large and θ moves little in n samples: without data a whole cycle adds what r samples add, and
-      within one P is off by less than that.
+      is large, Q a full matrix or memory scarce, and θ moves little in n samples: without data a whole
+      cycle adds what r samples add, and within one P is off by less than that.
     - Not without a bound where the input may fall silent for ever: P then grows without end.
 
     A diagonal Q is taken in the order of its elements, a full one in the order of the pivots of
@@ -1452,9 +1456,10 @@ class Stabilised(Rule):
     ```text
     P̄ = λ_k P_k + (1 − λ_k) P_∞              stabilised (regularized) linear forgetting
     F_k = R_k − P̄⁻¹                          as a case of Theorem 1
-    P ← λ P, P ← P + (1 − λ) Σ_i r_iᵀr_i     the form used: D ← λ D, then one covariance row for
-                                             each row r_i of a root of P_∞; for P_∞ = c·I with n ≤ 10
-                                             one pass of Gram and Schmidt over [U, I]
+    P ← λ P, P ← P + (1 − λ) Σ_i r_iᵀr_i     the form used: D ← λ D, then for a diagonal P_∞, of what
+                                             was added, the part that the sample depends on, for
+                                             P_∞ = c·I with n ≤ 10 one pass of Gram and Schmidt over
+                                             [U, I], else one dyad for each row r_i of a root
     ```
 
     | symbol | name | range | default |
@@ -1469,7 +1474,8 @@ class Stabilised(Rule):
     - P̄ bounded above without excitation (A2): always, by the larger of P₀ and P_∞.
     - P bounded below (A3): if λ_k ≤ λ_max < 1 and φ is bounded: after a sample with φ̄ᵀφ̄ ≤ β I,
       P⁻¹ ≤ β I + P_∞⁻¹/(1 − λ_max).
-    - Cost: O(n³), at n ≤ 10 with P_∞ = c·I about twice that of `exponential`. State: P alone.
+    - Cost: O((p + 1) n²), at n ≤ 10 with P_∞ = c·I about twice that of `exponential`; O(n³) for a full P_∞.
+      State: P alone, in n²/2 numbers more for a diagonal P_∞.
     - Use it when the gain must neither wind up nor fall asleep, with both bounds stated
       beforehand. The smallest variance that it keeps, (1 − λ) P_∞, is noise in the estimate.
     - Not where the estimate must come to rest: P̄ is at least (1 − λ) P_∞ at every sample.

@@ -91,6 +91,33 @@ def test_rule_in_single_precision(name: str) -> None:
         assert_close(follow(setting, data), "float32", (kind, n, p))
 
 
+# rules that add to every variance, which among many parameters is done where a sample needs it
+ADDING = ("component", "constant_trace", "random_walk", "stabilised")
+
+
+@pytest.mark.parametrize("dtype", ["float64", "float32"])
+@pytest.mark.parametrize("name", ADDING)
+def test_what_is_added_to_many_parameters(name: str, dtype: str) -> None:
+    # nearly collinear input costs more digits than single precision has to spare
+    for i, kind in enumerate(list(KINDS)[: 4 if dtype == "float32" else 5]):
+        n, p = 11 + i, 1 + i % 3
+        data = record(kind, SHORT, p, n, targets=1 + i % 2, weighted=p > 1, seed=i)
+        for case in rules.load(name).cases(n):
+            assert_close(follow(Setting(name, case, dtype=dtype), data), dtype, (kind, n, p, case))
+
+
+@pytest.mark.parametrize("name", ADDING)
+def test_what_is_added_to_many_parameters_as_rates_and_weightings_see_it(name: str) -> None:
+    data, case = record("exciting", 60, 2, 11, 2, weighted=True, seed=3), case_for(name, 0, 11)
+    data.y[40:44] += 30.0
+    for rate in set(product.RATES) & {"fortescue", "noise_power", "exact_gradient", "gradient"}:
+        setting = Setting(name, case, rate=(rate, rates.load(rate).CASES[0]))
+        assert_close(follow(setting, data), "float64", rate)
+    for weighting, (first, *_) in WEIGHTING_CASES.items():
+        setting = Setting(name, case, weighting=(weighting, first))
+        assert_close(follow(setting, data), "float64", weighting)
+
+
 @pytest.mark.parametrize(("name", "index"), RATE_LINES)
 def test_rate_equals_its_reference(name: str, index: int) -> None:
     """The factors themselves, and the estimates of two rules that use them."""

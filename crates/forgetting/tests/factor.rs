@@ -113,7 +113,7 @@ fn reads<T: Kernels>(case: &Case) {
     let along_r = x.transpose() * r.clone() * x.clone();
     let found = factor.information_along(&x_real, &mut vec![T::ZERO; n]).to_f64();
     close::<T>(&scalar(found), &along_r, k);
-    close::<T>(&applied(&|y| factor.multiply(y)), &(p.clone() * x.clone()), k);
+    close::<T>(&applied(&|y| factor.multiply(&x_real, y)), &(p.clone() * x.clone()), k);
     // U D^(1/2) D^(1/2) Uᵀ
     let root = applied(&|y| {
         factor.apply_root_transposed(y);

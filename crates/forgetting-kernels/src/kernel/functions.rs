@@ -5,6 +5,7 @@ use super::form::Form;
 use super::kernels::Kernels;
 use super::measure::{Measure, Place};
 use super::measured::Measured;
+use super::symmetric::{Scale, SymmetricMultiply, SymmetricSubtract};
 use super::triangle::{Leverage, Multiply, MultiplyTransposed, Solve};
 use super::vectors::{AddScaled, Arrive, Dot};
 
@@ -73,4 +74,22 @@ pub fn multiply<T: Kernels>(columns: &[T], x: &mut [T]) {
 #[inline(always)]
 pub fn multiply_transposed<T: Kernels>(columns: &[T], x: &mut [T]) {
     T::multiply_transposed(MultiplyTransposed { columns, x });
+}
+
+/// `product` ← A·`x` for a symmetric A as [`symmetric`](super::symmetric) keeps it, O(n²).
+#[inline(always)]
+pub fn symmetric_multiply<T: Kernels>(matrix: &[T], x: &[T], product: &mut [T]) {
+    T::symmetric_multiply(SymmetricMultiply { matrix, x, product });
+}
+
+/// A ← A − `x`·`x`ᵀ for the same A, O(n²).
+#[inline(always)]
+pub fn symmetric_subtract<T: Kernels>(matrix: &mut [T], x: &[T]) {
+    T::symmetric_subtract(SymmetricSubtract { matrix, x });
+}
+
+/// `x` ← c·`x` for numbers in whole chunks.
+#[inline(always)]
+pub fn scale<T: Kernels>(x: &mut [T], c: T) {
+    T::scale(Scale { x, c });
 }

@@ -56,6 +56,7 @@ pub mod outcome;
 mod registers;
 pub mod runs;
 mod scratch;
+pub mod symmetric;
 mod tiles;
 mod together;
 pub mod triangle;

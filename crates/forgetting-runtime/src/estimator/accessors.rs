@@ -35,7 +35,8 @@ pub(crate) fn covariance<T: Number>(estimator: &AnyEstimator<T>) -> Result<Array
 /// The largest and the smallest element of D, in the units of the user.
 pub(crate) fn extremes<T: Number>(estimator: &AnyEstimator<T>) -> (f64, f64) {
     let units = estimator.reciprocal_units();
-    let elements = estimator.factor().diagonal_elements().iter().enumerate();
+    let factor = estimator.factor().settled();
+    let elements = factor.diagonal_elements().iter().enumerate();
     elements.fold((0.0, f64::INFINITY), |(largest, smallest), (i, &d)| {
         let unit = units.map_or(1.0, |units| units[i].to_f64());
         let d = d.to_f64() * unit * unit;
@@ -49,7 +50,7 @@ pub(crate) fn units<T: Number>(reciprocals: &[T]) -> Array {
 }
 
 pub(super) fn factor<T: Number>(estimator: &AnyEstimator<T>) -> Result<(Array, Array), Error> {
-    let factor = estimator.express(estimator.factor());
+    let factor = estimator.express(&estimator.factor().settled());
     let n = factor.parameters();
     let mut dense: Vec<T> = zeros(n * n)?;
     for j in 0..n {

@@ -29,6 +29,7 @@ impl<M: Memory> Factor<M> {
         self.columns.as_mut().copy_from_slice(other.columns.as_ref());
         self.diagonal.as_mut().copy_from_slice(other.diagonal.as_ref());
         self.trace_bound = other.trace_bound;
+        self.deferred.copy_from(&other.deferred);
     }
 
     /// P ← the n x n matrix `covariance`, of which it reads the upper triangle and which it uses

@@ -17,6 +17,7 @@ impl<M: Memory> Factor<M> {
         for d in self.diagonal.as_mut() {
             *d *= growth;
         }
+        self.deferred.scale(growth);
         Ok(())
     }
 
@@ -28,6 +29,7 @@ impl<M: Memory> Factor<M> {
         for j in 0..self.parameters() {
             self.put_diagonal(j, self.diagonal.as_ref()[j] / before * trace);
         }
+        self.deferred.scale(trace / before);
         self.tighten();
     }
 
@@ -37,6 +39,7 @@ impl<M: Memory> Factor<M> {
         for j in 0..self.parameters() {
             self.put_diagonal(j, self.diagonal.as_ref()[j] * share);
         }
+        self.deferred.scale(share);
     }
 
     /// P ← S·P·S with S = I but for `scale` in (0, 1] at parameter `i`. O(n). Its D stays at

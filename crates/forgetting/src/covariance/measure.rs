@@ -16,6 +16,13 @@ impl<M: Memory> Factor<M> {
     /// gain) in `gain`.
     #[inline]
     pub fn add_information(&mut self, f: &[M::Real], gain: &mut [M::Real]) -> Measured<M::Real> {
+        self.expose(f, gain);
+        self.add_exposed(f, gain)
+    }
+
+    /// The same where nothing of P along `f` is deferred.
+    #[inline]
+    pub(crate) fn add_exposed(&mut self, f: &[M::Real], gain: &mut [M::Real]) -> Measured<M::Real> {
         functions::bierman(self.columns.as_mut(), self.diagonal.as_mut(), f, gain)
     }
 
@@ -32,6 +39,7 @@ impl<M: Memory> Factor<M> {
         scratch: &mut [M::Real],
         (theta, errors): (&mut [M::Real], &[M::Real]),
     ) -> Measured<M::Real> {
+        self.expose(f, &mut scratch[..f.len()]);
         let mut measure = |place: Place<'_, M::Real>, form| {
             M::Real::measure(Measure { place, form, f, squares, theta: &mut *theta, errors })
         };
@@ -77,6 +85,17 @@ impl<M: Memory> Factor<M> {
     /// f·P·fᵀ for n numbers `f`.
     #[inline]
     pub fn leverage(&self, f: &[M::Real]) -> M::Real {
+        let leverage = self.exposed_leverage(f);
+        if self.is_deferring() {
+            leverage + self.deferred.leverage(f)
+        } else {
+            leverage
+        }
+    }
+
+    /// The same where nothing of P along `f` is deferred.
+    #[inline]
+    pub(crate) fn exposed_leverage(&self, f: &[M::Real]) -> M::Real {
         functions::leverage(self.columns.as_ref(), self.diagonal.as_ref(), f)
     }
 
@@ -115,13 +134,15 @@ impl<M: Memory> Factor<M> {
         functions::multiply(self.columns.as_ref(), x);
     }
 
-    /// x ← P·x
-    pub fn multiply(&self, x: &mut [M::Real]) {
+    /// `x` ← P·`f`
+    pub fn multiply(&self, f: &[M::Real], x: &mut [M::Real]) {
+        x.copy_from_slice(f);
         functions::multiply_transposed(self.columns.as_ref(), x);
         for (x, &d) in x.iter_mut().zip(self.diagonal.as_ref()) {
             *x *= d;
         }
         functions::multiply(self.columns.as_ref(), x);
+        self.deferred.add_product(f, x);
     }
 
     /// P⁻¹ as n x n numbers, written to `dense`; uses `work`, of as many. O(n³/2).

@@ -2,10 +2,12 @@
 //!
 //! Nothing here subtracts from P. Each operation scales it, adds covariance, adds information,
 //! transforms it by congruence or replaces it, and keeps every element of D at or above
-//! [`Real::FLOOR`]: P stays positive definite whatever is asked of it.
+//! [`Real::FLOOR`]: P stays positive definite whatever is asked of it. A part of what a rule adds may be kept
+//! beside U D Uᵀ until a sample needs it ([`deferred`]).
 
 mod blocks;
 mod bounded;
+mod deferred;
 pub(crate) mod dense;
 mod grow;
 mod measure;
@@ -23,6 +25,7 @@ use crate::error::Error;
 use crate::memory::state::Visitor;
 use crate::memory::Memory;
 use core::cmp::Ordering;
+use deferred::Deferred;
 use forgetting_kernels::kernel::functions;
 use forgetting_kernels::kernel::layout;
 use forgetting_kernels::kernel::variances::Variances;
@@ -39,6 +42,8 @@ pub struct Factor<M: Memory> {
     diagonal: M::Vector,
     /// at least the trace of P; kept in O(1), tightened when it matters
     trace_bound: M::Real,
+    /// what of P is not in U D Uᵀ yet, if anything may be
+    deferred: Deferred<M>,
 }
 
 impl<M: Memory> Factor<M> {
@@ -79,7 +84,8 @@ impl<M: Memory> Factor<M> {
             *d = variance(i);
         }
         let columns = memory.packed();
-        let mut factor = Self { memory, columns, diagonal, trace_bound: M::Real::ZERO };
+        let deferred = Deferred::none(memory);
+        let mut factor = Self { memory, columns, diagonal, trace_bound: M::Real::ZERO, deferred };
         factor.tighten();
         factor
     }
@@ -93,6 +99,7 @@ impl<M: Memory> Factor<M> {
             && self.trace() <= n * M::Real::CEILING
             && layout::is_unit_triangular(self.columns.as_ref(), self.parameters())
             && self.trace_bound.is_finite()
+            && self.deferred.is_sound(self.parameters())
     }
 
     /// Recomputes the bound of P's trace where the one that was read cannot be a bound.
@@ -128,22 +135,28 @@ impl<M: Memory> Factor<M> {
     }
 
     /// The largest element of D: at most the largest eigenvalue of P, and of its order when
-    /// one direction dominates.
+    /// one direction dominates. The same of what is deferred.
     #[inline(always)]
     pub fn largest(&self) -> M::Real {
-        self.diagonal.as_ref().iter().fold(M::Real::ZERO, |largest, &d| largest.max(d))
+        let deferred = self.deferred.largest(self.parameters());
+        self.diagonal.as_ref().iter().fold(deferred, |largest, &d| largest.max(d))
     }
 
-    /// Whether an element of D is larger than `limit`.
+    /// Whether an element of D is larger than `limit`, or of the diagonal of what is deferred.
     #[inline(always)]
     pub(crate) fn exceeds(&self, limit: M::Real) -> bool {
         // without a branch in the loop
-        self.diagonal.as_ref().iter().fold(false, |any, &d| any | (d > limit))
+        let any = self.diagonal.as_ref().iter().fold(false, |any, &d| any | (d > limit));
+        any || self.deferred.largest(self.parameters()) > limit
     }
 
-    /// The smallest element of D: at least the smallest eigenvalue of P.
+    /// The smallest element of D: at least the smallest eigenvalue of P. Where something is deferred that of
+    /// all of P, O(n³).
     #[inline(always)]
     pub fn smallest(&self) -> M::Real {
+        if self.is_deferring() {
+            return self.settled().smallest();
+        }
         self.diagonal.as_ref().iter().fold(M::Real::CEILING, |smallest, &d| smallest.min(d))
     }
 
@@ -165,6 +178,7 @@ impl<M: Memory> Factor<M> {
     /// The trace of P, O(n²).
     pub fn trace(&self) -> M::Real {
         trace(self.columns.as_ref(), self.diagonal.as_ref())
+            + self.deferred.trace(self.parameters())
     }
 
     /// P as n x n numbers, written to `dense` (of n² elements, else left alone). O(n³/3).
@@ -196,12 +210,14 @@ impl<M: Memory> Factor<M> {
             }
             row[i] = own;
         }
+        self.deferred.add_to(dense, n, M::Real::ONE);
     }
 
     /// The diagonal of P, written to `variances` (n elements), O(n²).
     pub fn variances(&self, variances: &mut [M::Real]) {
         let (columns, diagonal) = (self.columns.as_ref(), self.diagonal.as_ref());
-        M::Real::variances(Variances { columns, diagonal, variances });
+        M::Real::variances(Variances { columns, diagonal, variances: &mut *variances });
+        self.deferred.add_variances(variances);
     }
 
     /// D_j ← `d`, or the floor where that is below it, and column j of U with it.
@@ -224,6 +240,7 @@ impl<M: Memory> Factor<M> {
     pub fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
         visit_columns(self.columns.as_mut(), self.memory.parameters(), visitor);
         visitor.reals(self.diagonal.as_mut());
+        self.deferred.visit(self.memory.parameters(), visitor);
         visitor.reals(core::slice::from_mut(&mut self.trace_bound));
     }
 }

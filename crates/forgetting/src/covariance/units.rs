@@ -59,6 +59,7 @@ impl<M: Memory> Factor<M> {
     /// Call [`Factor::reserve`] with the largest squared scale first.
     pub fn scale_each(&mut self, scale: &[M::Real]) {
         scale_each(&mut Tiles(self.columns.as_mut()), self.diagonal.as_mut(), scale);
+        self.deferred.scale_each(scale);
     }
 
     /// P ← S·P·S with S = diag(`ratios`), each > 0. O(n²).
@@ -84,5 +85,6 @@ impl<M: Memory> Factor<M> {
             let d = &mut self.diagonal.as_mut()[j];
             *d = *d * s * s;
         }
+        self.deferred.scale_each(scale);
     }
 }

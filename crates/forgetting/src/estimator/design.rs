@@ -77,7 +77,10 @@ where
 
     /// The state before the first sample.
     pub fn start(&self, monitored: bool) -> RecursionState<F, R, M> {
-        let (memory, factor) = (self.prior.memory(), self.prior.factor());
+        let (memory, mut factor) = (self.prior.memory(), self.prior.factor());
+        if self.rule.defers() {
+            factor.start_deferring();
+        }
         RecursionState {
             monitor: monitored.then(|| self.monitor(&factor)),
             theta: self.prior.theta().clone(),

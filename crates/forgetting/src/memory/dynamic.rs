@@ -78,6 +78,9 @@ impl<T: Real> Aligned<T> {
     const LINE: usize = 64;
 
     fn zeros(length: usize) -> Self {
+        if length == 0 {
+            return Self { numbers: Vec::new(), first: 0, length };
+        }
         let spare = Self::LINE / T::BYTES;
         let numbers = vec![T::ZERO; length + spare];
         let first = numbers.as_ptr().align_offset(Self::LINE).min(spare);
@@ -126,6 +129,7 @@ impl<T: Kernels> Memory for Dynamic<T> {
     type Parameters = Aligned<T>;
     type Scratch = Aligned<T>;
     type List = Aligned<T>;
+    type Optional = Aligned<T>;
 
     #[inline(always)]
     fn parameters(&self) -> usize {
@@ -177,6 +181,9 @@ impl<T: Kernels> Memory for Dynamic<T> {
     }
     fn list(&self, length: usize) -> Aligned<T> {
         Aligned::zeros(length.min(Self::LONGEST_LIST))
+    }
+    fn optional(&self, length: usize) -> Aligned<T> {
+        Aligned::zeros(length)
     }
     fn longest_list(&self) -> usize {
         Self::LONGEST_LIST

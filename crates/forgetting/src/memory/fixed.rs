@@ -105,6 +105,7 @@ where
     type Parameters = Grid<T, N, M>;
     type Scratch = <Size<N> as Packed<T>>::Scratch;
     type List = [T; L];
+    type Optional = [T; 0];
 
     #[inline(always)]
     fn parameters(&self) -> usize {
@@ -150,6 +151,9 @@ where
     }
     fn list(&self, _: usize) -> [T; L] {
         [T::ZERO; L]
+    }
+    fn optional(&self, _: usize) -> [T; 0] {
+        []
     }
     fn longest_list(&self) -> usize {
         L

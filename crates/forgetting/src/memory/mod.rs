@@ -51,6 +51,8 @@ pub trait Memory: Copy + Debug + Send + Sync + 'static {
     type Scratch: Buffer<Self::Real>;
     /// numbers of a count that only the configuration knows, such as a window of past samples
     type List: Buffer<Self::Real>;
+    /// numbers that not every estimator has; none on the stack
+    type Optional: Buffer<Self::Real>;
 
     /// n
     fn parameters(&self) -> usize;
@@ -92,6 +94,8 @@ pub trait Memory: Copy + Debug + Send + Sync + 'static {
     fn scratch(&self) -> Self::Scratch;
     /// at least `length` zeros, at most [`Memory::longest_list`]
     fn list(&self, length: usize) -> Self::List;
+    /// `length` zeros, or none where there is no room for such numbers
+    fn optional(&self, length: usize) -> Self::Optional;
     /// the most numbers that a list can hold
     fn longest_list(&self) -> usize;
 }

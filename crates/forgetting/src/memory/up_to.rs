@@ -79,6 +79,7 @@ where
     type Parameters = Part<[T; N]>;
     type Scratch = Part<<Size<N> as Packed<T>>::Scratch>;
     type List = Part<[T; L]>;
+    type Optional = [T; 0];
 
     #[inline(always)]
     fn parameters(&self) -> usize {
@@ -125,6 +126,9 @@ where
     }
     fn list(&self, length: usize) -> Self::List {
         Part::new([T::ZERO; L], length.min(L))
+    }
+    fn optional(&self, _: usize) -> [T; 0] {
+        []
     }
     fn longest_list(&self) -> usize {
         L

@@ -171,7 +171,7 @@ impl<M: Memory> Weakest<M> {
         }
         before.copy_from_slice(self.axis.as_ref());
         let (axis, least) = (self.axis.as_mut(), self.least.as_ref());
-        iterate_axis(factor, (axis, least), direction, samples);
+        iterate_axis(factor, axis, [before, least], direction, samples);
         for ((u, &x), &least) in direction.iter_mut().zip(axis.iter()).zip(least) {
             *u = x / least;
         }
@@ -213,10 +213,11 @@ impl<M: Memory> State<M::Real> for Weakest<M> {
     }
 }
 
-/// S w ← S P̃ w / ‖P̃ w‖ = P S⁻¹w / ‖S⁻¹P S⁻¹w‖, in place of `axis`; uses `work`.
+/// S w ← S P̃ w / ‖P̃ w‖ = P S⁻¹w / ‖S⁻¹P S⁻¹w‖ in `axis`, which is `before`; uses `work`.
 fn iterate_axis<M: Memory>(
     factor: &Factor<M>,
-    (axis, least): (&mut [M::Real], &[M::Real]),
+    axis: &mut [M::Real],
+    [before, least]: [&[M::Real]; 2],
     work: &mut [M::Real],
     samples: u64,
 ) {
@@ -227,12 +228,12 @@ fn iterate_axis<M: Memory>(
         let s = least.sqrt();
         *u = (x + nudge * if up { s } else { -s }) / least;
     }
-    factor.multiply(work);
+    factor.multiply(work, axis);
     let squares = |x: &[M::Real]| {
         x.iter().zip(least).fold(M::Real::ZERO, |sum, (&x, &least)| sum + x * x / least)
     };
-    if normalize(work, squares) {
-        axis.copy_from_slice(work);
+    if !normalize(axis, squares) {
+        axis.copy_from_slice(before);
     }
 }
 

@@ -97,8 +97,7 @@ impl<M: Memory> Sensitivity<M> {
         let (gains, products) = (&mut self.gains.as_mut()[..used], self.products.as_mut());
         let (covariance, h) = (self.covariance.as_mut(), self.partner.as_mut());
         for (i, (g, b)) in gains.chunks_exact_mut(n).zip(products.chunks_exact_mut(n)).enumerate() {
-            g.copy_from_slice(sample.row(i));
-            factor.multiply(g);
+            factor.multiply(sample.row(i), g);
             for (b, z) in b.iter_mut().zip(covariance.chunks_exact(n)) {
                 *b = dot(z, sample.row(i));
             }
@@ -155,7 +154,7 @@ impl<M: Memory> Sensitivity<M> {
     }
 }
 
-/// The upper triangle of `matrix` −= that of P = Σ_j D_j u_j u_jᵀ, O(n³/6).
+/// The upper triangle of `matrix` −= that of P = Σ_j D_j u_j u_jᵀ and what is deferred, O(n³/6).
 fn subtract<M: Memory>(factor: &Factor<M>, matrix: &mut [M::Real], u: &mut [M::Real]) {
     let n = factor.parameters();
     for (j, &d) in factor.diagonal_elements().iter().enumerate() {
@@ -168,6 +167,7 @@ fn subtract<M: Memory>(factor: &Factor<M>, matrix: &mut [M::Real], u: &mut [M::R
         }
         matrix[j * n + j] -= d;
     }
+    factor.subtract_deferred(matrix);
 }
 
 impl<M: Memory> ExactGradient<M> {

@@ -3,7 +3,8 @@
 //! ```text
 //! P̄ = P + blkdiag((1/λ_b − 1) P_bb)        West & Harrison, discounting by component
 //! F_k = R − P̄⁻¹                            the same as Theorem 1 of GF-RLS has it; the form
-//!                                          used: P_bb = V diag(d) Vᵀ, one dyad for each v
+//!                                          used: P_bb = V diag(d) Vᵀ, one dyad for each v; for blocks
+//!                                          of one parameter the part that the sample depends on
 //! P̄ = P + (1/λ_bᶜ − 1) P_bb, b = k mod c   cyclic: one of the c blocks a sample, for c samples
 //! ```
 //!
@@ -17,11 +18,12 @@
 //! - P̄ bounded above without excitation (A2): no. In silence the variances of block b grow as
 //!   λ_b⁻ᵏ (windup).
 //! - P bounded below (A3): if λ_b ≤ λ_max < 1 and φ is bounded.
-//! - Cost: O(n³), one dyad for each parameter; O(p n²) with one block of all parameters, which is
-//!   `exponential`; cyclic O((p + n_b) n²) for blocks of n_b. State: P, and whose turn it is.
+//! - Cost: O((p + 1) n²) with blocks of one parameter; O(n³) with larger ones, one dyad for each parameter;
+//!   O(p n²) with one block of all parameters, which is `exponential`; cyclic O((p + n_b) n²) for blocks of n_b.
+//!   State: P, in n²/2 numbers more for blocks of one parameter, and whose turn it is.
 //! - Use it when parameters are known to drift at different rates. `multiple` drops what the
 //!   blocks know of each other and is rarely proper; this rule keeps it. Use the cyclic schedule
-//!   where n is large and λ_bᶜ is not small: in silence P is that of the other after each cycle,
+//!   where n and the blocks are large and λ_bᶜ is not small: in silence P is that of the other after each cycle,
 //!   exactly, and the same is guaranteed. k counts the samples used.
 //!
 //! Reference: M. West, J. Harrison, *Bayesian Forecasting and Dynamic Models*, 2nd edition,
@@ -65,8 +67,8 @@ const SCHEDULE: Parameter = cycle::schedule(
 /// The registry entry.
 pub const ABOUT: About = About {
     forgetting_factor: true,
-    squares: 1,
-    cost: "O(n^3); cyclic O((p + largest block) n^2)",
+    squares: 2,
+    cost: "O((p + 1) n^2), with blocks O(n^3); cyclic O((p + largest block) n^2)",
     guarantees: Some(Guarantees {
         proper: Guarantee::ALWAYS,
         bounded_above: Guarantee::no(Setting::usual(Input::Fixed)),
@@ -172,6 +174,11 @@ impl<M: Memory> Forgetting<M> for Component<M> {
         Turns { cycle: self.cyclic.then(Cycle::default), root: BlockRoot::new(memory) }
     }
 
+    /// Where every block is a parameter.
+    fn defers(&self) -> bool {
+        !self.cyclic && self.blocks.count() == self.memory.parameters()
+    }
+
     fn bounds(&self, constants: &Constants) -> Bounds {
         let common = M::Real::from_f64(constants.forgetting_factors.1);
         let factors = (0..self.blocks.count()).map(|b| self.factor(b, common, M::Real::ONE).to_f64());
@@ -211,6 +218,11 @@ impl<M: Memory> Forgetting<M> for Component<M> {
             added = variances[range].iter().fold(added, |sum, &v| weight.mul_add(v, sum));
         }
         factor.reserve(M::Real::ONE, added)?;
+        if factor.is_deferring() {
+            let weight = |i| growth(self.factor(i, common, elapsed), samples);
+            factor.defer_diagonal(|i| weight(i) * variances[i], step.work.gain.as_mut());
+            return Ok(Forgotten::rank(rank).with_factor(smallest.to_f64()));
+        }
         for (weight, range) in due() {
             turns.root.compute(factor, range.clone(), variances, step.work.gain.as_mut());
             turns.root.add_to(factor, range, weight, step.work.gain.as_mut());

@@ -18,7 +18,7 @@
 //! - P̄ bounded above without excitation (A2): always: floor·I ≤ P̄ ≤ (n·level − (n − 1)·floor) I.
 //! - P bounded below (A3): if φ is bounded: by min(1/(β + 1/floor), 1/(β + 1/λ_min(P₀))) for
 //!   φ̄ᵀφ̄ ≤ β I.
-//! - Cost: O(n³), for adding c₂ I to the factor. State: P alone.
+//! - Cost: O((p + 1) n²). State: P, in n²/2 numbers more, and whether the trace is to be held.
 //! - Use it where tracking must never slow down and noise is small. The gain stays high however
 //!   long the parameters rest.
 //!
@@ -51,7 +51,8 @@ const FLOOR: Parameter = Parameter::real(
 
 /// The registry entry.
 pub const ABOUT: About = About {
-    cost: "O(n^3)",
+    squares: 1,
+    cost: "O((p + 1) n^2)",
     guarantees: Some(Guarantees {
         proper: Guarantee::no(
             Setting::usual(Input::Fixed)
@@ -117,6 +118,10 @@ impl<M: Memory> Forgetting<M> for ConstantTrace<M> {
         true
     }
 
+    fn defers(&self) -> bool {
+        true
+    }
+
     fn bounds(&self, constants: &Constants) -> Bounds {
         let (level, floor) = (self.level.to_f64(), self.floor.to_f64());
         let n = constants.parameters as f64;
@@ -146,6 +151,10 @@ impl<M: Memory> Forgetting<M> for ConstantTrace<M> {
         let shared = c * (self.level - self.floor);
         step.factor.hold_trace(shared);
         step.factor.reserve(M::Real::ONE, c * self.floor)?;
+        if step.factor.is_deferring() {
+            step.factor.defer_diagonal(|_| self.floor, step.work.gain.as_mut());
+            return Ok(Forgotten::rank(n));
+        }
         let variances = &mut step.work.first.as_mut()[..n];
         variances.fill(self.floor);
         step.factor.add_diagonal(variances, step.work.gain.as_mut());

@@ -108,6 +108,11 @@ pub trait Forgetting<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
         false
     }
 
+    /// Whether the rule adds to P by [`Factor::defer_diagonal`] where that is possible.
+    fn defers(&self) -> bool {
+        false
+    }
+
     /// Bounds of the eigenvalues of P, where a formula for them is known; the header derives it.
     fn bounds(&self, constants: &Constants) -> Bounds {
         let _ = constants;
@@ -163,6 +168,7 @@ pub trait Forgetting<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
 registry! {
     "rule", "rules", RULES, Rule [RuleState]: Forgetting {
         fn is_bounded(&self) -> bool;
+        fn defers(&self) -> bool;
         fn bounds(&self, constants: &Constants) -> Bounds;
         #[inline]
         fn form(&self, forgetting_factor: M::Real, elapsed: M::Real) -> Option<Form<M::Real>>;

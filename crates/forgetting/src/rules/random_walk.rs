@@ -7,9 +7,10 @@
 //!                                          for r samples
 //! P̄ = S_j P S_j + (1 − κʳ)/(1 − κ) w_jᵀ w_j    the same with a bound, for a diagonal Q:
 //!                                          S_j = I but for κ^(r/2) at parameter j
-//! F_k = R − P̄⁻¹                            the same as Theorem 1 of GF-RLS has it; the form used: one
-//!                                          dyad for each row of a root of Q, and for Q = c·I with
-//!                                          n ≤ 10 one pass of Gram and Schmidt over [U, I]
+//! F_k = R − P̄⁻¹                            the same as Theorem 1 of GF-RLS has it; the form used: for
+//!                                          a diagonal Q, of what was added the part that the sample
+//!                                          depends on, for Q = c·I with n ≤ 10 one pass of Gram and
+//!                                          Schmidt over [U, I], else one dyad for each row of a root
 //! ```
 //!
 //! | symbol | name | range | default |
@@ -23,16 +24,17 @@
 //! - P̄ bounded above without excitation (A2): if a bound b is given: P ≤ b·I makes P̄ ≤ b·I. Without one
 //!   P grows by Q at each sample that brings no information, linearly.
 //! - P bounded below (A3): if Q > 0 and φ is bounded.
-//! - Cost: O((p + r) n²), r the rank of Q; O(n³) for a full one, at n ≤ 10 with Q = c·I about twice that
-//!   of `exponential`; cyclic O((p + 1) n²). State: P, and whose turn it is.
+//! - Cost: O((p + 1) n²) for a number or n numbers, at n ≤ 10 about twice that of `exponential`; O((p + r) n²)
+//!   for a matrix of rank r; cyclic O((p + 1) n²), and less of it. State: P, in n²/2 numbers more for a diagonal
+//!   Q, and whose turn it is.
 //! - Where the time Δt between samples is given, Q is per unit of it: κ^Δt and (1 − κ^Δt)/(1 − κ) Q, or
 //!   Δt Q without a bound, so that gaps without data add up.
 //! - Q is per sample and in units of P: the variance by which θ moves, over the variance of the
 //!   measurement noise (Γ).
 //! - Use it when that ratio is known: the estimate is then the optimal one. With P₀ that follows the
 //!   data, Q counts in units of the typical size of each regressor. Use the cyclic schedule where n
-//!   is large and θ moves little in n samples: without data a whole cycle adds what r samples add, and
-//!   within one P is off by less than that.
+//!   is large, Q a full matrix or memory scarce, and θ moves little in n samples: without data a whole
+//!   cycle adds what r samples add, and within one P is off by less than that.
 //! - Not without a bound where the input may fall silent for ever: P then grows without end.
 //!
 //! A diagonal Q is taken in the order of its elements, a full one in the order of the pivots of
@@ -85,10 +87,13 @@ pub(crate) const SCHEDULE: Parameter = cycle::schedule(
 /// Of what a long gap leaves of P, in rounding units: several products are rounded on the way.
 const ROUNDING: f64 = 32.0;
 
+/// So many dyads a sample are added one by one.
+const FEW_DYADS: usize = 4;
+
 /// The registry entry.
 pub const ABOUT: About = About {
     squares: 3,
-    cost: "O((p + r) n^2), r = rank of process_noise; cyclic O((p + 1) n^2)",
+    cost: "O((p + 1) n^2), for a matrix of rank r O((p + r) n^2); cyclic O((p + 1) n^2)",
     guarantees: Some(Guarantees {
         proper: Guarantee::when(
             "no bound, or P <= bound and not cyclic",
@@ -269,6 +274,11 @@ impl<M: Memory> Forgetting<M> for RandomWalk<M> {
         self.bound.is_some()
     }
 
+    fn defers(&self) -> bool {
+        let several = self.process_noise.rank() > FEW_DYADS;
+        several && self.process_noise.is_diagonal() && self.turns.is_none()
+    }
+
     fn start(&self, _: M) -> Option<Cycle> {
         self.turns.map(|_| Cycle::default())
     }
@@ -319,6 +329,11 @@ impl<M: Memory> Forgetting<M> for RandomWalk<M> {
         step.factor.reserve(M::Real::ONE, steps * self.trace)?;
         if self.bound.is_some() {
             step.factor.shrink(shrink(steps * self.largest, self.per_bound));
+        }
+        if step.factor.is_deferring() {
+            let work = &mut step.work.first.as_mut()[..step.factor.parameters()];
+            step.factor.defer_diagonal(|i| steps * self.process_noise.element(i, i), work);
+            return Ok(Forgotten::rank(rank).with_factor(1.0));
         }
         for j in 0..rank {
             self.add(j, steps, step.factor, step.work);

@@ -160,6 +160,16 @@ impl<M: Memory> Root<M> {
         }
     }
 
+    /// The matrix's element at row `i`, column `j`, as it was given.
+    pub fn element(&self, i: usize, j: usize) -> M::Real {
+        let given = self.given.as_ref();
+        match self.form {
+            Form::Dense => given[i * self.memory.parameters() + j],
+            _ if i == j => given[i],
+            _ => M::Real::ZERO,
+        }
+    }
+
     /// The matrix as a covariance.
     ///
     /// # Errors

@@ -3,9 +3,10 @@
 //! ```text
 //! P̄ = λ_k P_k + (1 − λ_k) P_∞              stabilised (regularized) linear forgetting
 //! F_k = R_k − P̄⁻¹                          as a case of Theorem 1
-//! P ← λ P, P ← P + (1 − λ) Σ_i r_iᵀr_i     the form used: D ← λ D, then one covariance row for
-//!                                          each row r_i of a root of P_∞; for P_∞ = c·I with n ≤ 10
-//!                                          one pass of Gram and Schmidt over [U, I]
+//! P ← λ P, P ← P + (1 − λ) Σ_i r_iᵀr_i     the form used: D ← λ D, then for a diagonal P_∞, of what
+//!                                          was added, the part that the sample depends on, for
+//!                                          P_∞ = c·I with n ≤ 10 one pass of Gram and Schmidt over
+//!                                          [U, I], else one dyad for each row r_i of a root
 //! ```
 //!
 //! | symbol | name | range | default |
@@ -20,7 +21,8 @@
 //! - P̄ bounded above without excitation (A2): always, by the larger of P₀ and P_∞.
 //! - P bounded below (A3): if λ_k ≤ λ_max < 1 and φ is bounded: after a sample with φ̄ᵀφ̄ ≤ β I,
 //!   P⁻¹ ≤ β I + P_∞⁻¹/(1 − λ_max).
-//! - Cost: O(n³), at n ≤ 10 with P_∞ = c·I about twice that of `exponential`. State: P alone.
+//! - Cost: O((p + 1) n²), at n ≤ 10 with P_∞ = c·I about twice that of `exponential`; O(n³) for a full P_∞.
+//!   State: P alone, in n²/2 numbers more for a diagonal P_∞.
 //! - Use it when the gain must neither wind up nor fall asleep, with both bounds stated
 //!   beforehand. The smallest variance that it keeps, (1 − λ) P_∞, is noise in the estimate.
 //! - Not where the estimate must come to rest: P̄ is at least (1 − λ) P_∞ at every sample.
@@ -56,7 +58,7 @@ const COVARIANCE: Parameter = Parameter::elements(
 pub const ABOUT: About = About {
     forgetting_factor: true,
     squares: 3,
-    cost: "O(n^3)",
+    cost: "O((p + 1) n^2), O(n^3) for a matrix",
     guarantees: Some(Guarantees {
         proper: Guarantee::when(
             "P_0 <= covariance",
@@ -110,6 +112,10 @@ impl<M: Memory> Forgetting<M> for Stabilised<M> {
         true
     }
 
+    fn defers(&self) -> bool {
+        self.covariance.is_diagonal()
+    }
+
     fn bounds(&self, constants: &Constants) -> Bounds {
         let (least, most) = self.covariance.extremes();
         let added = (1.0 - constants.forgetting_factors.1) * least.to_f64();
@@ -135,6 +141,11 @@ impl<M: Memory> Forgetting<M> for Stabilised<M> {
         step.factor.reserve(M::Real::ONE, weight * self.trace)?;
         step.factor.hold_trace(lambda * step.factor.trace());
         step.factor.reserve(M::Real::ONE, weight * self.trace)?;
+        if step.factor.is_deferring() {
+            let added = |i| weight * self.covariance.element(i, i);
+            step.factor.defer_diagonal(added, step.work.gain.as_mut());
+            return Ok(Forgotten::rank(n));
+        }
         let direction = &mut step.work.first.as_mut()[..n];
         for row in self.covariance.rows() {
             direction.copy_from_slice(row);

@@ -10,7 +10,7 @@ use forgetting_kernels::Real;
 ///
 /// I + φ̄Pφ̄ᵀ = V Vᵀ with V = [I, φ̄ U √D]. Gram–Schmidt makes the rows of V orthogonal, and the same
 /// steps on ē solve for L⁻¹ē. Each row has an element of I that no other has, so that none becomes
-/// shorter than 1, however large P is.
+/// shorter than 1, however large P is. Where something of P is deferred, a copy is made first.
 pub(crate) fn whiten_errors<M: Memory>(
     factor: &Factor<M>,
     regressors: &[M::Real],
@@ -18,6 +18,10 @@ pub(crate) fn whiten_errors<M: Memory>(
     errors: &mut [M::Real],
     identity: &mut [M::Real],
 ) -> M::Real {
+    if factor.is_deferring() {
+        let factor = factor.settled();
+        return whiten_errors(&factor, regressors, directions, errors, identity);
+    }
     let n = factor.parameters();
     let p = regressors.len() / n;
     let m = errors.len() / p;

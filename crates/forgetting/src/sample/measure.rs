@@ -24,11 +24,17 @@ pub fn measure_rows<M: Memory>(
     remaining: &mut M::Errors,
 ) -> M::Real {
     let n = factor.parameters();
-    let leverage = leverage(factor, sample);
+    let mut leverage = M::Real::ZERO;
+    for i in 0..sample.rows() {
+        factor.expose(sample.row(i), gain);
+    }
+    for i in 0..sample.rows() {
+        leverage += factor.exposed_leverage(sample.row(i));
+    }
     let (m, remaining) = (sample.error(0).len(), remaining.as_mut());
     remaining[..sample.errors().len()].copy_from_slice(sample.errors());
     for i in 0..sample.rows() {
-        let measured = factor.add_information(sample.row(i), gain);
+        let measured = factor.add_exposed(sample.row(i), gain);
         let (used, later) = remaining.split_at_mut((i + 1) * m);
         let used = &mut used[i * m..];
         used.iter_mut().for_each(|error| *error *= measured.inverse_variance);

@@ -33,12 +33,13 @@ fn trial() -> impl Strategy<Value = Trial> {
     };
     let samples = move |any| {
         let gamma = prop_oneof![3 => Just(1.0), 1 => number()];
-        prop::collection::vec((numbers(any, 12), numbers(any, 9), gamma), 1..60)
+        prop::collection::vec((numbers(any, 39), numbers(any, 9), gamma), 1..60)
     };
     (
         any::<[Index; 4]>(),
         any::<bool>(),
-        (1..=4usize, 1..=3usize, 1..=3usize),
+        // among many parameters some rules add to P in another way
+        (prop_oneof![4 => 1..=4usize, 1 => 11..=13usize], 1..=3usize, 1..=3usize),
         (-15.0..15.0f64, -6.0..0.0f64),
         prop_oneof![samples(true), samples(false)],
     )

@@ -11,8 +11,9 @@ fn reach(estimator: &AnyEstimator<f64>, phi: &[f64], gamma: &[f64]) -> Vec<f64> 
     let n = estimator.factor().parameters();
     let mut squares = vec![0.0; n];
     for (row, gamma) in phi.chunks_exact(n).zip(gamma) {
-        let mut x: Vec<f64> = row.iter().map(|x| x / gamma.sqrt()).collect();
-        estimator.factor().multiply(&mut x);
+        let row: Vec<f64> = row.iter().map(|x| x / gamma.sqrt()).collect();
+        let mut x = vec![0.0; n];
+        estimator.factor().multiply(&row, &mut x);
         squares.iter_mut().zip(x).for_each(|(sum, x)| *sum += x * x);
     }
     squares.into_iter().map(f64::sqrt).collect()
