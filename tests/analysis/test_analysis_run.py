@@ -5,6 +5,7 @@ import json
 import dense_gf_rls as dense
 import numpy as np
 import pytest
+from runs import OUTPUTS, data, run_of
 
 import forgetting as fg
 from forgetting.analysis import (
@@ -19,7 +20,6 @@ from forgetting.analysis import (
     windup,
 )
 
-OUTPUTS = ("theta", "error", "covariance", "forgetting_factor", "skipped", "leverage")
 RULES = {
     "none": (fg.NoForgetting(), dense.none()),
     "exponential": (fg.Exponential(0.97), dense.exponential(0.97)),
@@ -31,25 +31,12 @@ RULES = {
 }
 
 
-def _data(rows=1, samples=400, n=3, seed=0, sigma=0.1):
-    rng = np.random.default_rng(seed)
-    phi = rng.normal(size=(samples, rows, n))
-    truth = rng.normal(size=n)
-    return phi, phi @ truth + sigma * rng.normal(size=(samples, rows)), truth
-
-
-def _run(rule, phi, y, P0=1.0, **options):
-    _, rows, n = phi.shape
-    est = fg.RLS(n, rule=rule, rows=rows, initial_covariance=P0, **options)
-    return est.run(phi[:, 0] if rows == 1 else phi, y[:, 0] if rows == 1 else y, outputs=OUTPUTS)
-
-
 @pytest.mark.parametrize("rows", [1, 2])
 @pytest.mark.parametrize("name", RULES)
 def test_record_of_a_run_equals_the_dense_recursion(name, rows):
-    phi, y, _ = _data(rows)
+    phi, y, _ = data(rows)
     rule, reference = RULES[name]
-    trajectory = Trajectory.from_run(_run(rule, phi, y), phi, initial_covariance=1.0)
+    trajectory = Trajectory.from_run(run_of(rule, phi, y), phi, initial_covariance=1.0)
     expected = dense.simulate(reference, phi[None], y[None], np.eye(3)).trajectory()
     for part in ("before", "prior", "after"):
         np.testing.assert_allclose(
@@ -63,8 +50,8 @@ def test_record_of_a_run_equals_the_dense_recursion(name, rows):
 
 
 def test_conclusions_and_bound_of_a_run():
-    phi, y, truth = _data()
-    run = _run(fg.Exponential(0.97), phi, y)
+    phi, y, truth = data()
+    run = run_of(fg.Exponential(0.97), phi, y)
     noise = y - phi @ truth
     found = conditions(
         run, phi, initial_covariance=1.0, true_theta=truth, measurement_noise=noise, window=20
@@ -76,8 +63,8 @@ def test_conclusions_and_bound_of_a_run():
 
 
 def test_without_the_initial_covariance_the_record_starts_at_sample_one():
-    phi, y, _ = _data()
-    run = _run(fg.Exponential(0.97), phi, y)
+    phi, y, _ = data()
+    run = run_of(fg.Exponential(0.97), phi, y)
     late, full = (
         Trajectory.from_run(run, phi),
         Trajectory.from_run(run, phi, initial_covariance=1.0),
@@ -90,7 +77,7 @@ def test_without_the_initial_covariance_the_record_starts_at_sample_one():
 
 @pytest.mark.parametrize("rule", [None, "exponential", fg.Subspace(0.97)])
 def test_a_prior_that_is_set_late_is_no_forgetting(rule):
-    phi, y, _ = _data()
+    phi, y, _ = data()
     phi[:150, :, 2] = 0.0
     phi[:, :, 1] = 0.0  # never switched on
     phi[:, :, 2] *= 1000.0  # P falls where its unit becomes known
@@ -102,17 +89,17 @@ def test_a_prior_that_is_set_late_is_no_forgetting(rule):
 
 
 def test_a_record_that_speaks_at_its_end_is_judged_all_the_same():
-    phi, y, _ = _data(samples=20)
+    phi, y, _ = data(samples=20)
     phi[:18, :, 2] = 0.0
     run = fg.RLS(3).run(phi, y, outputs=OUTPUTS)
     assert Trajectory.from_run(run, phi).samples == 2 * 3
 
 
 def _nightly(rule):
-    phi, y, _ = _data(samples=1500, n=4, sigma=0.05)
+    phi, y, _ = data(samples=1500, n=4, sigma=0.05)
     phi[500:1200] = 0.0
     y[500:1200] = 0.0
-    return _run(rule, phi, y, P0=100.0), phi
+    return run_of(rule, phi, y, P0=100.0), phi
 
 
 def test_certificate_of_a_night():
@@ -193,7 +180,7 @@ def test_resetting_returns_to_its_ceiling_and_no_further():
 
 
 def test_skipped_samples_inform_nothing():
-    phi, y, _ = _data()
+    phi, y, _ = data()
     y[50:60] = np.nan
     phi[100:120] *= 1e-6
     est = fg.RLS(3, rule=fg.Subspace(0.97, threshold=1e-3), initial_covariance=1.0)
@@ -207,10 +194,10 @@ def test_skipped_samples_inform_nothing():
 
 
 def test_a_filtered_part_of_a_sample():
-    phi, y, _ = _data(rows=2)
+    phi, y, _ = data(rows=2)
     phi[:, 1] *= 1e-2
     rule = fg.Subspace(0.97, threshold=0.5)
-    run = _run(rule, phi, y, P0=1e6)
+    run = run_of(rule, phi, y, P0=1e6)
     with pytest.raises(fg.InvalidInput, match="filtered_regressors"):
         conditions(run, phi, initial_covariance=1e6)
     used = filtered_regressors(phi, 0.5)
@@ -220,7 +207,7 @@ def test_a_filtered_part_of_a_sample():
 
 def test_full_weighting_and_two_targets():
     rng = np.random.default_rng(1)
-    phi, _, _ = _data(rows=2)
+    phi, _, _ = data(rows=2)
     gamma = np.array([[2.0, 0.5], [0.5, 1.0]])
     truth = rng.normal(size=(3, 2))
     noise = 0.1 * rng.normal(size=(400, 2, 2))
@@ -236,65 +223,23 @@ def test_full_weighting_and_two_targets():
 
 
 def test_single_precision_is_judged_with_its_own_roundoff():
-    phi, y, _ = _data(samples=2000)
-    run = _run(fg.Exponential(0.97), phi, y, dtype="float32")
+    phi, y, _ = data(samples=2000)
+    run = run_of(fg.Exponential(0.97), phi, y, dtype="float32")
     trajectory = Trajectory.from_run(run, phi, initial_covariance=1.0)
     if run.covariance.dtype == np.float32:
         assert trajectory.precision == pytest.approx(float(np.finfo(np.float32).eps))
     assert conditions(trajectory)["A1"].verdict == "holds"
 
 
-def test_coverage_of_plain_least_squares_over_1e5_samples():
-    inside = counted = 0
-    for seed in range(10):
-        phi, y, _ = _data(samples=10_100, n=2, seed=seed)
-        run = _run(fg.NoForgetting(), phi, y, P0=1e4)
-        found = confidence(run, phi, initial_covariance=1e4, warm_up=50)
-        inside += found.coverage * found.counted.sum()
-        counted += int(found.counted.sum())
-    assert counted >= 100_000
-    assert 0.94 < inside / counted < 0.96
-
-
-#: Coverage of 95 % intervals from P for fixed parameters and known σ²: the docs quote these.
-COVERAGE = {
-    "none": (fg.NoForgetting(), 0.950),
-    "exponential 0.98": (fg.Exponential(0.98), 0.955),
-    "exponential 0.9": (fg.Exponential(0.9), 0.970),
-    "resetting 0.9": (fg.ExponentialResetting(0.9, information=1.0), 0.968),
-    "subspace 0.98": (fg.Subspace(0.98, threshold=1e-3), 0.952),
-    "subspace 0.9": (fg.Subspace(0.9, threshold=1e-3), 0.956),
-}
-
-
-@pytest.mark.parametrize("name", COVERAGE)
-def test_coverage_of_each_rule_for_fixed_parameters(name):
-    rule, expected = COVERAGE[name]
-    covered, fixed, estimated = [], [], []
-    for seed in range(4):
-        phi, y, _ = _data(samples=10_140, n=4, seed=seed)
-        run = _run(rule, phi, y, P0=100.0)
-        for given, kept in ((0.01, (covered, fixed)), (None, (None, estimated))):
-            found = confidence(run, phi, initial_covariance=100.0, noise_variance=given, warm_up=70)
-            if kept[0] is not None:
-                kept[0].append(found.coverage)
-            kept[1].append(found.fixed_coverage)
-    chance = 4 * (0.05 * 0.95 / 40_000) ** 0.5
-    assert np.mean(covered) == pytest.approx(expected, abs=chance)
-    # The reading for fixed parameters is the true one here, σ² known or not.
-    assert np.mean(fixed) == pytest.approx(0.95, abs=chance)
-    assert np.mean(estimated) == pytest.approx(0.95, abs=chance)
-
-
 def test_what_is_missing_from_a_run_is_named():
-    phi, y, _ = _data()
+    phi, y, _ = data()
     run = fg.RLS(3).run(phi[:, 0], y[:, 0], outputs=("theta",))
     with pytest.raises(fg.InvalidInput, match="covariance"):
         certify(run, phi)
     with pytest.raises(fg.InvalidInput, match="error"):
         confidence(run, phi)
     with pytest.raises(fg.InvalidInput, match="regressors"):
-        conditions(_run(fg.NoForgetting(), phi, y))
+        conditions(run_of(fg.NoForgetting(), phi, y))
 
 
 def test_a_measured_record(measured):

@@ -1,7 +1,11 @@
-"""Run the command in this process, as a shell would see it."""
+"""Run the command in this process, as a shell would see it, on the records of these tests.
+
+`fleet_rows` is a module beside them.
+"""
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,6 +14,8 @@ import numpy as np
 import pytest
 
 from forgetting.cli import main
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 
 @dataclass(frozen=True)
@@ -53,3 +59,14 @@ def battery(tmp_path: Path) -> Path:
     path = tmp_path / "battery.csv"
     path.write_text("\n".join(["time_s,I,V", *rows]) + "\n")
     return path
+
+
+@pytest.fixture
+def data(tmp_path: Path) -> Path:
+    """A folder of partitions of a fleet."""
+    from fleet_rows import write
+
+    folder = tmp_path / "data"
+    folder.mkdir()
+    write(folder)
+    return folder

@@ -40,6 +40,7 @@ REFUSED = [
     "fg.ExcitationMeter(2**20, 2**20, rows=2**20)",
     "est.run(phi, y, outputs=('covariance',))",
     "est.run(phi, y, outputs=('prior_covariance',))",
+    "fg.Bank(400).run(phi, y, outputs=('covariance',))",
 ]
 
 

@@ -8,6 +8,14 @@ import numpy as np
 import pyarrow as pa
 
 import forgetting as fg
+from forgetting.tables import TableFleet
+
+ROWS = {"key": ["a", "b", "a"], "t": [1, 1, 2], "x": [1.0, 2.0, 2.0], "y": [3.0, 8.0, 6.0]}
+
+
+def new(**more: Any) -> TableFleet:
+    """A fleet for `ROWS`."""
+    return TableFleet("key", "y", "x", **{"time": "t", **more})
 
 
 def table(rows: int = 600, keys: int = 7, seed: int = 0, skewed: bool = False) -> pa.Table:

@@ -4,7 +4,7 @@ use crate::error::Error;
 use crate::missing::{is_missing, Missing};
 use crate::number::{Array, Elements, Number, View};
 use crate::shape;
-use forgetting::{Answer, AnyEstimator, Memory, Noise, Real, Skip};
+use forgetting::{Answer, AnyEstimator, Dynamic, Memory, Noise, Real, Skip};
 
 /// One number a row and target of a sample.
 #[derive(Clone, Debug, PartialEq)]
@@ -135,27 +135,43 @@ pub(crate) fn update<T: Number>(
     options: UpdateOptions,
 ) -> Result<Update, Error> {
     let memory = estimator.prior().memory();
-    let (n, p, m) = (memory.parameters(), memory.rows(), memory.targets());
-    shape::check("phi", phi.shape(), &[], &[p, n])?;
-    shape::check("y", y.shape(), &[], &[p, m])?;
-    if let Some(gamma) = &gamma {
-        check_gamma(gamma.shape(), p)?;
-    }
-    if memory.rows() > 1 {
+    let (p, m) = (memory.rows(), memory.targets());
+    check_shapes(memory, &phi, &y, gamma.as_ref())?;
+    if p > 1 {
         estimator.keep_innovations(true);
     }
     let gamma = gamma.map(|gamma| T::read(gamma.numbers()));
-    let noise = match gamma.as_deref() {
-        None => Noise::Unit,
-        Some([scalar]) => Noise::Scalar(*scalar),
-        Some(full) => Noise::Full(full),
-    };
+    let noise = noise_of(gamma.as_deref());
     let (phi, y) = (T::read(phi.numbers()), T::read(y.numbers()));
     if options.missing == Missing::Skip && is_missing(&phi, &y) {
         return Ok(Update::of_missing(p * m, m));
     }
     let update = estimator.update_after(T::from_f64(options.elapsed), &phi, &y, noise)?;
     Update::new(&update, m)
+}
+
+/// Refuses a sample whose φ is not (p, n), whose y is not (p, m), or whose Γ does not fit.
+#[inline]
+pub(crate) fn check_shapes<T: Number>(
+    memory: Dynamic<T>,
+    phi: &View<'_>,
+    y: &View<'_>,
+    gamma: Option<&View<'_>>,
+) -> Result<(), Error> {
+    let (n, p, m) = (memory.parameters(), memory.rows(), memory.targets());
+    shape::check("phi", phi.shape(), &[], &[p, n])?;
+    shape::check("y", y.shape(), &[], &[p, m])?;
+    gamma.map_or(Ok(()), |gamma| check_gamma(gamma.shape(), p))
+}
+
+/// Γ as it was given: nothing, a number or p x p numbers.
+#[inline]
+pub(crate) fn noise_of<T: Real>(gamma: Option<&[T]>) -> Noise<'_, T> {
+    match gamma {
+        None => Noise::Unit,
+        Some([scalar]) => Noise::Scalar(*scalar),
+        Some(full) => Noise::Full(full),
+    }
 }
 
 /// Refuses a Γ of one sample that is neither a number nor p x p numbers.

@@ -4,9 +4,8 @@ use crate::error::Error;
 use crate::number::{Array, Elements, Number, View};
 use crate::settings::size;
 use crate::shape;
-use crate::update::check_gamma;
+use crate::update::{check_gamma, noise_of};
 use forgetting::memory::zeros;
-use forgetting::Noise;
 
 /// The sum of φᵀφ over the last samples, in O(n²) a sample.
 #[derive(Clone, Debug)]
@@ -39,11 +38,7 @@ impl InformationWindow {
         let Some(gamma) = gamma else { return Ok(self.window.add(&phi)?) };
         check_gamma(gamma.shape(), self.rows)?;
         let gamma = f64::read(gamma.numbers());
-        let noise = match *gamma {
-            [scalar] => Noise::Scalar(scalar),
-            ref full => Noise::Full(full),
-        };
-        Ok(self.window.add_with_noise(&phi, noise)?)
+        Ok(self.window.add_with_noise(&phi, noise_of(Some(&gamma)))?)
     }
 
     /// The sum, (n, n), in units of φ².

@@ -115,7 +115,7 @@ def fleet(
     by: By,
     output: Output,
     input: Inputs = None,
-    arx: options.Orders = None,
+    arx: options.model.Orders = None,
     model: Annotated[
         str | None,
         options.option(
@@ -130,19 +130,19 @@ def fleet(
     gap: Gap = None,
     batch_rows: BatchRows = 1_000_000,
     rule: RuleName = None,
-    forgetting_factor: options.ForgettingFactor = None,
-    half_life: options.HalfLife = None,
-    rate: options.RateText = None,
-    threshold: options.Threshold = None,
-    settings: options.Settings = None,
-    gate: options.GateText = None,
-    initial_covariance: options.InitialCovariance = "auto",
-    dtype: options.Dtype = "float64",
+    forgetting_factor: options.rule.ForgettingFactor = None,
+    half_life: options.rule.HalfLife = None,
+    rate: options.rule.RateText = None,
+    threshold: options.rule.Threshold = None,
+    settings: options.rule.Settings = None,
+    gate: options.rule.GateText = None,
+    initial_covariance: options.rule.InitialCovariance = "auto",
+    dtype: options.rule.Dtype = "float64",
     out: Out = None,
     tell: Told = "prediction,error,skipped",
     state: State = None,
     streams: Streams = None,
-    as_json: options.Json = False,
+    as_json: options.writing.Json = False,
 ) -> int:
     """Follow many streams in tables larger than memory: an estimator for each key.
 

@@ -18,10 +18,10 @@ if TYPE_CHECKING:
 
 
 def tune(
-    record: options.RecordFile,
-    formula: options.Formula = None,
-    output: options.Outputs = None,
-    input: options.Inputs = None,
+    record: options.model.RecordFile,
+    formula: options.model.Formula = None,
+    output: options.model.Outputs = None,
+    input: options.model.Inputs = None,
     arx: Annotated[
         str | None,
         options.option(
@@ -43,13 +43,13 @@ def tune(
             metavar="NAME:ORDERS",
         ),
     ] = None,
-    offset: options.Offset = True,
-    time: options.Time = None,
-    gap: options.Gap = None,
-    missing: options.Missing = None,
-    part: options.Part = None,
-    encoding: options.Encoding = None,
-    show: options.Show = False,
+    offset: options.model.Offset = True,
+    time: options.reading.Time = None,
+    gap: options.reading.Gap = None,
+    missing: options.reading.Missing = None,
+    part: options.reading.Part = None,
+    encoding: options.reading.Encoding = None,
+    show: options.reading.Show = False,
     rules: Annotated[
         str,
         options.option(options.RULE, "shortlist, all, or registry names with commas.", "--rules"),
@@ -66,9 +66,9 @@ def tune(
             "--priors/--no-priors",
         ),
     ] = True,
-    share: options.Share = 2 / 3,
-    plot: options.Plot = None,
-    as_json: options.Json = False,
+    share: options.rule.Share = 2 / 3,
+    plot: options.writing.Plot = None,
+    as_json: options.writing.Json = False,
 ) -> None:
     """Choose rule, forgetting factor, rate, prior and orders, and say whether it pays.
 

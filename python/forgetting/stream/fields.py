@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 import forgetting as fg
-from forgetting.stream.learner import Estimates
+from forgetting.stream.estimates import Estimates
 from forgetting.stream.rows import Array
 from forgetting.words.errors import RecordError
 from forgetting.words.suggestion import suggestion

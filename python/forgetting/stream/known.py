@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from forgetting.record.known import Known, less
-from forgetting.stream.learner import Estimates
+from forgetting.stream.estimates import Estimates
 from forgetting.stream.rows import Array
 from forgetting.stream.samples import Samples
 

@@ -8,7 +8,6 @@ constant is exact at every row.
 from __future__ import annotations
 
 import base64
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -21,42 +20,15 @@ from forgetting.record.learned import inside
 from forgetting.record.limits import within
 from forgetting.record.origin import at_zero, weighted_sum
 from forgetting.record.trace import USED
-from forgetting.stream.rows import Array, Flags
+from forgetting.stream.estimates import Estimates
+from forgetting.stream.noise import RunningNoise
+from forgetting.stream.rows import Array
 from forgetting.stream.running import run_all
 from forgetting.stream.samples import Samples, Seen
 from forgetting.words.errors import RecordError
 
 ROOM = 4_000_000
 """Numbers that the covariances of one run may be."""
-
-
-@dataclass(frozen=True)
-class Estimates:
-    """What T rows brought.
-
-    Attributes
-    ----------
-    theta : ndarray, shape (T, n, m)
-    error, prediction : ndarray, shape (T, m)
-    standard_errors : ndarray, shape (T, n, m), or None
-        None where they were not asked for.
-    noise_variance : ndarray, shape (T, m)
-    skipped : ndarray of uint8, shape (T,)
-        See `forgetting.SKIPPED`.
-    refused : ndarray of bool, shape (T,)
-        Rows that were left out because they would have left the range of numbers.
-    others : dict of str to ndarray
-        Further outputs of the estimator's `run`, by name.
-    """
-
-    theta: Array
-    error: Array
-    prediction: Array
-    standard_errors: Array | None
-    noise_variance: Array
-    skipped: NDArray[np.uint8]
-    refused: Flags
-    others: dict[str, NDArray[Any]]
 
 
 class Learner:
@@ -107,13 +79,9 @@ class Learner:
         self.phi0: Array | None = None
         self.y0 = np.zeros(outputs)
         self.last = LastTime()
-        self.used = 0
+        self.noise = RunningNoise(regressors, outputs)
         self.reason = ""
         """What was said of the first refused row since it was last taken."""
-        self.total = np.zeros(outputs)
-        """Sum of e² / (1 + leverage) over the used samples but the first n."""
-        self.counted = 0.0
-        """What these samples count."""
 
     def take(self, samples: Samples, time: Array | None = None) -> tuple[Estimates, Array, Array]:
         """Learn from rows; also the rows as they were measured from the origin."""
@@ -179,7 +147,7 @@ class Learner:
         total = len(y)
         theta = found["theta"].reshape(total, self.n, self.m)
         error = found["error"].reshape(total, self.m)
-        noise = self._noise(error, found["leverage"], found["skipped"] == USED)
+        noise = self.noise.take(error, found["leverage"], found["skipped"] == USED)
         errors = None
         if self.wants_errors:
             errors = np.sqrt(self._variance(found)[:, :, None] * noise[:, None, :])
@@ -194,7 +162,7 @@ class Learner:
     def _of_model(self, seen: Seen) -> Estimates:
         """With the estimates and errors of the model itself, not of the linear regression."""
         self.reason, found = self.reason or seen.reason, as_double(seen.outputs)
-        noise = self._noise(seen.error, found["leverage"], found["skipped"] == USED, seen.trust)
+        noise = self.noise.take(seen.error, found["leverage"], found["skipped"] == USED, seen.trust)
         errors = None
         if self.wants_errors:
             variance = np.einsum("tii->ti", found["covariance"]).copy()
@@ -250,21 +218,6 @@ class Learner:
             covariance = at_zero(covariance, self._change, self.constant)
         theta[out, :, 0] = within(theta[out, :, 0], covariance, lower, upper)
 
-    def _noise(
-        self, error: Array, leverage: Array, used: NDArray[np.bool_], trust: Array | float = 1.0
-    ) -> Array:
-        """Running noise variance, as `forgetting.record.uncertainty` has it; sums go on."""
-        order = self.used + np.cumsum(used)
-        counts = np.where(used & (order > self.n), trust, 0.0)[:, None]
-        each = error**2 / (1.0 + leverage[:, None]) * counts
-        each[counts[:, 0] == 0] = 0.0
-        sums = np.cumsum(np.vstack([self.total, each]), axis=0)[1:]
-        counted = np.cumsum(np.vstack([[self.counted], counts]), axis=0)[1:]
-        self.used, self.total = int(order[-1]), sums[-1].copy()
-        self.counted = float(counted[-1, 0])
-        with np.errstate(invalid="ignore"):
-            return np.asarray(sums / counted)  # 0/0 before the first
-
     def state(self) -> dict[str, Any]:
         """As `restore` takes it."""
         return {
@@ -272,9 +225,7 @@ class Learner:
             "phi0": None if self.phi0 is None else self.phi0.tolist(),
             "y0": self.y0.tolist(),
             "last": self.last.when,
-            "used": self.used,
-            "total": self.total.tolist(),
-            "counted": self.counted,
+            **self.noise.state(),
         }
 
     def restore(self, state: dict[str, Any]) -> None:
@@ -291,9 +242,9 @@ class Learner:
             raise RecordError("the saved estimator is another than that of these settings")
         self.estimator = saved
         self.phi0 = None if state["phi0"] is None else np.array(state["phi0"])
-        self.y0, self.used = np.array(state["y0"]), state["used"]
+        self.y0 = np.array(state["y0"])
         self.last = LastTime(state["last"])
-        self.total, self.counted = np.array(state["total"]), state["counted"]
+        self.noise.restore(state)
 
 
 def as_double(outputs: dict[str, NDArray[Any]]) -> dict[str, Any]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from forgetting.stream.learner import Estimates
+from forgetting.stream.estimates import Estimates
 from forgetting.stream.rows import Array, Rows
 from forgetting.stream.watch import Alarm
 

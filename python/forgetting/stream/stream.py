@@ -15,9 +15,10 @@ from forgetting.record.trace import MISSING, USED
 from forgetting.stream import fields as field_names
 from forgetting.stream.blocks import decoded, first_cells, pieces
 from forgetting.stream.clock import Marks, StreamClock
+from forgetting.stream.estimates import Estimates
 from forgetting.stream.form import Form, recognised
 from forgetting.stream.known import KnownParameters
-from forgetting.stream.learner import Estimates, Learner, in_bank
+from forgetting.stream.learner import Learner, in_bank
 from forgetting.stream.model import Model, make_model
 from forgetting.stream.output import Batch, Output, with_alarms
 from forgetting.stream.parse import Parser

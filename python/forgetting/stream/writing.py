@@ -13,8 +13,8 @@ import numpy as np
 
 import forgetting as fg
 from forgetting.extras import extra
+from forgetting.stream.estimates import Estimates
 from forgetting.stream.fields import SKIPPED, Field
-from forgetting.stream.learner import Estimates
 from forgetting.stream.rows import Array, Rows
 
 KINDS = ("json", "csv")

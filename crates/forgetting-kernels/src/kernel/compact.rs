@@ -6,7 +6,8 @@
 //! memory.
 
 use super::form::Form;
-use super::measure::{along, scale, walk, Bounds};
+use super::measure::bounds::Bounds;
+use super::measure::forms::{along, scale, walk};
 use super::outcome::Outcome;
 use super::registers::{Small, Unit};
 use super::runs::{accepts, left_out};

@@ -1,22 +1,24 @@
 //! A bank of estimators, of any type.
 
 pub(crate) mod make;
+pub(crate) mod outputs;
 pub(crate) mod record;
+mod update;
 
 pub use make::{BankSettings, Member};
-pub use record::BANK_OUTPUTS;
+pub use outputs::BANK_OUTPUTS;
+pub use update::BankUpdate;
 
 use crate::choice::{Choice, Description};
 use crate::error::Error;
 use crate::estimator::{units, GoOn, Run, RunOptions};
-use crate::missing::{is_missing, Missing};
+use crate::missing::Missing;
 use crate::number::{each, make, ByType, Family, Number};
 use crate::number::{Array, NumberType, View};
-use crate::shape;
-use crate::update::{check_gamma, Innovation, UpdateOptions};
+use crate::update::UpdateOptions;
 use forgetting::bank;
 use forgetting::saved::bank_number_type;
-use forgetting::{Memory, Noise, Real, Skip};
+use forgetting::{Memory, Real};
 
 /// Banks, with the number type left open.
 pub(crate) struct Banks;
@@ -30,24 +32,6 @@ impl Family for Banks {
 #[derive(Clone)]
 pub struct Bank {
     pub(crate) typed: ByType<Banks>,
-}
-
-/// What a bank reports of one sample.
-#[derive(Clone, Debug, PartialEq)]
-pub struct BankUpdate {
-    /// y − φθ with the θ of before, in units of y
-    pub error: Innovation,
-    /// the variance of the prediction in units of the noise variance, without what members
-    /// disagree about
-    pub leverage: f64,
-    /// the forgetting factor of the members, mixed
-    pub forgetting_factor: f64,
-    /// why the sample was left out, if all members left it out
-    pub skipped: Option<Skip>,
-    /// whether P of every member that is believed has wound up
-    pub windup: bool,
-    /// members that could not take the sample
-    pub asleep: usize,
 }
 
 impl Bank {
@@ -103,7 +87,7 @@ impl Bank {
         sample: (View<'_>, View<'_>, Option<View<'_>>),
         options: UpdateOptions,
     ) -> Result<BankUpdate, Error> {
-        each!(&mut self.typed, bank => update(bank, sample, options))
+        each!(&mut self.typed, bank => update::update(bank, sample, options))
     }
 
     /// Takes a whole record, as [`Estimator::run`](crate::Estimator::run) does; the outputs are those
@@ -261,44 +245,4 @@ fn predict<T: Number>(bank: &bank::Bank<T>, phi: View<'_>) -> Result<Array, Erro
         shape.push(m);
     }
     Ok(T::array(prediction, &shape))
-}
-
-fn update<T: Number>(
-    bank: &mut bank::Bank<T>,
-    (phi, y, gamma): (View<'_>, View<'_>, Option<View<'_>>),
-    options: UpdateOptions,
-) -> Result<BankUpdate, Error> {
-    let memory = bank.memory();
-    let (n, p, m) = (memory.parameters(), memory.rows(), memory.targets());
-    shape::check("phi", phi.shape(), &[], &[p, n])?;
-    shape::check("y", y.shape(), &[], &[p, m])?;
-    if let Some(gamma) = &gamma {
-        check_gamma(gamma.shape(), p)?;
-    }
-    let gamma = gamma.map(|gamma| T::read(gamma.numbers()));
-    let noise = match gamma.as_deref() {
-        None => Noise::Unit,
-        Some([scalar]) => Noise::Scalar(*scalar),
-        Some(full) => Noise::Full(full),
-    };
-    let (phi, y) = (T::read(phi.numbers()), T::read(y.numbers()));
-    if options.missing == Missing::Skip && is_missing(&phi, &y) {
-        return Ok(BankUpdate {
-            error: Innovation::new(&vec![f64::NAN; p * m], m),
-            leverage: f64::NAN,
-            forgetting_factor: 1.0,
-            skipped: Some(Skip::Missing),
-            windup: false,
-            asleep: 0,
-        });
-    }
-    let update = bank.update_after(T::from_f64(options.elapsed), &phi, &y, noise)?;
-    Ok(BankUpdate {
-        error: Innovation::new(update.error, m),
-        leverage: update.leverage.to_f64(),
-        forgetting_factor: update.forgetting_factor.to_f64(),
-        skipped: update.skipped,
-        windup: update.windup,
-        asleep: update.asleep,
-    })
 }

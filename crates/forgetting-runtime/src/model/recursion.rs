@@ -1,5 +1,6 @@
 //! What a model needs of the estimator behind it: to take one sample and to say θ.
 
+use crate::bank::outputs::Outputs as BankOutputs;
 use crate::bank::record as bank_record;
 use crate::error::Error;
 use crate::estimator::record::{self, Record, RecordBounds, Run, Sizes};
@@ -59,10 +60,10 @@ impl<T: Number> Recursion<T> for AnyEstimator<T> {
 }
 
 impl<T: Number> Recursion<T> for bank::Bank<T> {
-    type Outputs = bank_record::Outputs<T>;
+    type Outputs = BankOutputs<T>;
 
     fn outputs(&mut self, names: &[&str], sizes: Sizes) -> Result<Self::Outputs, Error> {
-        bank_record::Outputs::named(names, sizes, self.weights().len())
+        BankOutputs::named(names, sizes, self.weights().len())
     }
 
     fn take(
@@ -71,7 +72,7 @@ impl<T: Number> Recursion<T> for bank::Bank<T> {
         _: Option<&mut RecordBounds>,
         outputs: &mut Self::Outputs,
     ) -> Result<Option<Skip>, forgetting::Error> {
-        outputs.take(self, (record, None), 0)
+        bank_record::one(self, (record, None), 0, outputs)
     }
 
     fn theta(&self) -> &[T] {

@@ -205,7 +205,7 @@ impl Parameter {
             Value::Matrix { rows, columns, elements } => {
                 Error::check_length(self.name, rows * columns, length)?;
                 for i in 0..length {
-                    take(i, self.convert(elements(i))?);
+                    take(i, self.convert(elements(i)).map_err(|error| error.at(i))?);
                 }
             }
             _ => return Err(Error::value(self.name, f64::NAN, "numbers")),

@@ -1,7 +1,8 @@
 //! What streams were before their samples, so that they can be that again.
 
+use super::grow::reserve;
 use super::part::Part;
-use super::{reserve, Line};
+use super::Line;
 use crate::error::Error;
 use alloc::vec::Vec;
 use forgetting_kernels::Kernels;

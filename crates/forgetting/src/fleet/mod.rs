@@ -7,6 +7,7 @@
 
 mod before;
 mod following;
+mod grow;
 mod kind;
 mod part;
 mod priors;
@@ -33,6 +34,7 @@ use forgetting_kernels::kernel::lanes::streams::Streams;
 use forgetting_kernels::kernel::lanes::SCRATCH;
 use forgetting_kernels::kernel::layout::FEW;
 use forgetting_kernels::Kernels;
+use grow::extend;
 use priors::Priors;
 use starts::Starts;
 use transfer::numbers_of;
@@ -246,18 +248,4 @@ fn strength<T: Kernels>(form: Form<T>) -> T {
         Form::Along { weight, .. } => weight,
         Form::Walk { noise, .. } => noise,
     }
-}
-
-/// Room for `length` numbers in all.
-fn reserve<X>(numbers: &mut Vec<X>, length: usize) -> Result<(), Error> {
-    let more = length.saturating_sub(numbers.len());
-    numbers.try_reserve(more).map_err(|_| Error::Memory)
-}
-
-fn extend<X: Clone>(numbers: &mut Vec<X>, length: usize, x: X) -> Result<(), Error> {
-    reserve(numbers, length)?;
-    if numbers.len() < length {
-        numbers.resize(length, x);
-    }
-    Ok(())
 }

@@ -1,7 +1,8 @@
 //! The units of the streams that follow the data, as lines beside their states.
 
+use super::grow::reserve;
 use super::starts::Starts;
-use super::{reserve, Line};
+use super::Line;
 use crate::error::Error;
 use alloc::vec::Vec;
 use forgetting_kernels::kernel::lanes::streams::Units as StreamUnits;

@@ -28,8 +28,14 @@ pub trait State<T: Real>: Clone + Debug + Send + Sync {
 
 /// Whether every number is finite, and no count near its end.
 pub(crate) fn is_finite<T: Real, S: State<T>>(state: &S) -> bool {
+    let mut state = state.clone();
+    shows_finite(|visitor| state.visit(visitor))
+}
+
+/// Whether all numbers that `visit` shows are finite, and no count near its end.
+pub(crate) fn shows_finite<T: Real>(visit: impl FnOnce(&mut dyn Visitor<T>)) -> bool {
     let mut finite = Finite(true);
-    state.clone().visit(&mut finite);
+    visit(&mut finite);
     finite.0
 }
 

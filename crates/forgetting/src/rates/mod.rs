@@ -10,7 +10,6 @@ use crate::memory::state::State;
 use crate::memory::Memory;
 
 mod averages;
-mod f_law;
 mod limits;
 mod next;
 mod windows;

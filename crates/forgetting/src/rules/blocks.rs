@@ -58,7 +58,8 @@ impl<M: Memory> Blocks<M> {
             let size = size(b);
             sum += size;
             if !(size >= 1.0 && libm::trunc(size) == size && sum <= n as f64) {
-                return Err(Error::value(name, size, ALLOWED));
+                let index = (!alike).then_some(b);
+                return Err(Error::Value { parameter: name, index, value: size, allowed: ALLOWED });
             }
             sizes.as_mut()[b] = M::Real::from_f64(size);
         }
@@ -75,6 +76,11 @@ impl<M: Memory> Blocks<M> {
         self.count
     }
 
+    /// The size of block `b`, as a number.
+    pub fn size(&self, b: usize) -> f64 {
+        self.sizes.as_ref()[..self.count][b].to_f64()
+    }
+
     /// The places of each block's parameters.
     #[inline]
     pub fn ranges(&self) -> impl Iterator<Item = Range<usize>> + '_ {
@@ -87,7 +93,7 @@ impl<M: Memory> Blocks<M> {
 
     /// Names the sizes as they were given.
     pub fn describe(&self, name: &'static str, each: &mut dyn FnMut(&'static str, Value<'_>)) {
-        let elements = |b: usize| self.sizes.as_ref()[b].to_f64();
+        let elements = |b: usize| self.size(b);
         if self.alike {
             each(name, Value::Real(elements(0)));
         } else {

@@ -49,20 +49,22 @@
 //! regulator with covariance resetting*, IEE Proceedings D 130, 1983; E. S. Page, *Continuous
 //! inspection schemes*, Biometrika 41, 1954 (CUSUM).
 
-use super::criterion::{Criterion, Watch, CRITERION, DRIFT, MEMORY, PERIOD, THRESHOLD};
+pub mod criterion;
+mod inner;
+
+use super::root::Root;
 use super::{Forgetting, Forgotten, InnerRule, Step, RULES};
 use crate::choice::guarantee::positive;
 use crate::choice::{
-    About, Bounds, Claim, Constants, Defaults, Guarantee, Guarantees, Input, Kind, Parameter, Range,
-    Setting, Value, Values,
+    About, Bounds, Claim, Constants, Guarantee, Guarantees, Input, Kind, Parameter, Range, Setting,
+    Value, Values,
 };
-use crate::rules::root::Root;
-use crate::memory::state::{State, Visitor};
 use crate::covariance::Factor;
 use crate::error::Error;
+use crate::memory::state::{State, Visitor};
 use crate::memory::Memory;
+use criterion::{Criterion, Watch, CRITERION, DRIFT, MEMORY, PERIOD, THRESHOLD};
 use forgetting_kernels::Real;
-use core::marker::PhantomData;
 
 const RULE: Parameter = Parameter::rule("rule", "none", "how to forget between the resets");
 const COVARIANCE: Parameter = Parameter::elements(
@@ -135,22 +137,7 @@ impl<M: Memory, F: Forgetting<M>> CovarianceResetting<M, F> {
     /// # Errors
     /// [`Error::Indefinite`] names `covariance` unless it is positive definite.
     pub fn new(rule: F, criterion: Criterion<M::Real>, covariance: Root<M>) -> Result<Self, Error> {
-        let memory = covariance.memory();
-        let n = memory.parameters();
-        let mut factor = Factor::scalar(memory, M::Real::ONE)?;
-        if covariance.is_diagonal() {
-            let mut variances = memory.vector();
-            for (i, x) in variances.as_mut().iter_mut().enumerate() {
-                *x = covariance.element(i, i);
-            }
-            factor.replace_diagonal(variances.as_ref(), COVARIANCE.name)?;
-        } else {
-            let mut dense = memory.square();
-            for (k, x) in dense.as_mut().iter_mut().enumerate() {
-                *x = covariance.element(k / n, k % n);
-            }
-            factor.replace(dense.as_mut(), COVARIANCE.name)?;
-        }
+        let factor = covariance.factor(COVARIANCE.name)?;
         Ok(Self { rule, criterion, root: covariance, covariance: factor })
     }
 }
@@ -180,18 +167,13 @@ impl<M: Memory, F: Forgetting<M>> Forgetting<M> for CovarianceResetting<M, F> {
     type State = Resetting<M, F::State>;
 
     fn configure(values: &dyn Values, memory: M) -> Result<Self, Error> {
-        let rule = match RULE.look_up(values)? {
-            Value::Word(name) => F::called(name, &Defaults, memory)?,
-            Value::Choice { name, values } => F::called(name, values, memory)?,
-            _ => return Err(Error::value(RULE.name, f64::NAN, "the name of a rule")),
-        };
+        let rule = inner::configure(&RULE, values, memory)?;
         let covariance = Root::configure(&COVARIANCE, values, memory)?;
         Self::new(rule, Criterion::configure(values)?, covariance)
     }
 
     fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>)) {
-        let values = &Described(&self.rule, PhantomData);
-        each(RULE.name, Value::Choice { name: self.rule.name(), values });
+        inner::describe::<M, F>(RULE.name, &self.rule, each);
         self.criterion.describe(each);
         self.root.describe(COVARIANCE.name, each);
     }
@@ -230,14 +212,14 @@ impl<M: Memory, F: Forgetting<M>> Forgetting<M> for CovarianceResetting<M, F> {
     #[inline]
     fn forget(&self, state: &mut Self::State, step: Step<'_, '_, M>) -> Result<Forgotten, Error> {
         let Step { factor, sample, forgetting_factor, elapsed, work } = step;
-        let Resetting { rule: inner, watch, before } = state;
+        let Resetting { rule: own, watch, before } = state;
         let progress = watch.look(&self.criterion, factor, sample, work.first.as_mut());
         if progress.met {
             before.copy_from(factor);
             factor.copy_from(&self.covariance);
         }
         let step = Step { factor: &mut *factor, sample, forgetting_factor, elapsed, work };
-        let done = act(&self.rule, inner, step, progress.met);
+        let done = inner::forget(&self.rule, own, step, progress.met);
         let used = matches!(done, Ok(Forgotten { skipped: None, .. }));
         if used {
             watch.remember(progress);
@@ -251,40 +233,12 @@ impl<M: Memory, F: Forgetting<M>> Forgetting<M> for CovarianceResetting<M, F> {
     }
 }
 
-/// Not inlined: any rule may be in here, beside any rule around it.
-#[inline(never)]
-fn act<M: Memory, F: Forgetting<M>>(
-    rule: &F,
-    state: &mut F::State,
-    step: Step<'_, '_, M>,
-    restart: bool,
-) -> Result<Forgotten, Error> {
-    if restart {
-        rule.restart(state, step)
-    } else {
-        rule.forget(state, step)
-    }
-}
-
-/// The parameters of the inner rule, to be shown.
-struct Described<'a, M, F>(&'a F, PhantomData<M>);
-
-impl<M: Memory, F: Forgetting<M>> Values for Described<'_, M, F> {
-    fn get(&self, _: &str) -> Option<Value<'_>> {
-        None
-    }
-
-    fn each(&self, show: &mut dyn FnMut(&str, Value<'_>)) {
-        self.0.describe(&mut |name, value| show(name, value));
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::{covariance, forget, forget_with_errors, memory, Dense};
     use crate::memory::Dynamic;
     use crate::rules::Subspace;
+    use crate::testing::{covariance, forget, forget_with_errors, memory, Dense};
 
     type Rule = CovarianceResetting<Dynamic<f64>, Subspace<Dynamic<f64>>>;
 

@@ -8,13 +8,13 @@
 mod along_sample;
 mod block_root;
 mod blocks;
-pub mod criterion;
 pub(crate) mod cycle;
 mod ellipsoid;
 mod root;
 
 pub use crate::sample::Skip;
 pub use blocks::Blocks;
+pub use covariance_resetting::criterion;
 
 use crate::choice::registry::registry;
 use crate::choice::{Bounds, Constants, Value, Values};

@@ -28,19 +28,19 @@
 //! Dynamics 43, 2005; B. Lai, D. S. Bernstein, *Generalized forgetting recursive least squares:
 //! stability and robustness guarantees*, IEEE Transactions on Automatic Control, 2024, V-J.
 
+mod factors;
+
+pub use factors::BlockFactors;
+
+use super::blocks::Blocks;
 use super::{Forgetting, Forgotten, Step};
 use crate::choice::{
     About, Bounds, Constants, Guarantee, Guarantees, Input, Kind, Parameter, Range, Setting, Value,
     Values,
 };
-use crate::memory::state::{State, Visitor, is_finite};
-use crate::covariance::{trace, Factor};
 use crate::error::Error;
 use crate::memory::Memory;
-use crate::sample::Sample;
 use forgetting_kernels::Real;
-use forgetting_kernels::kernel::functions::{add_scaled, bierman, dot};
-use forgetting_kernels::kernel::layout::{length, place, set_identity};
 
 const FACTORS: Parameter = Parameter::elements(
     "factors",
@@ -79,10 +79,7 @@ pub const ABOUT: About = About {
 /// Forgets each block at its own rate; see [`self`](crate::rules::multiple).
 #[derive(Clone, Debug)]
 pub struct Multiple<M: Memory> {
-    /// number of blocks
-    count: usize,
-    /// sizes of the blocks, whole numbers
-    sizes: M::Vector,
+    blocks: Blocks<M>,
     /// λ_b
     factors: M::Vector,
 }
@@ -91,157 +88,25 @@ impl<M: Memory> Multiple<M> {
     /// With consecutive blocks of these sizes and a forgetting factor for each.
     ///
     /// # Errors
-    /// [`Error`] names `blocks` unless they add up to n, or `factors`.
+    /// [`Error`] names `blocks` unless they sum to n, or `factors`.
     pub fn new(factors: &[M::Real], blocks: &[usize], memory: M) -> Result<Self, Error> {
         Error::check_length(FACTORS.name, factors.len(), blocks.len())?;
-        Self::of(memory, blocks.len(), &|b| factors[b].to_f64(), &|b| blocks[b] as f64)
+        let (blocks, mut kept) = (Blocks::new(memory, blocks)?, memory.vector());
+        for (b, &factor) in factors.iter().enumerate() {
+            kept.as_mut()[b] = FACTORS.check(factor).map_err(|error| error.at(b))?;
+        }
+        Ok(Self { blocks, factors: kept })
     }
 
-    /// With the factors given in `values`.
-    fn with_blocks(
-        values: &dyn Values,
-        memory: M,
-        count: usize,
-        size: &dyn Fn(usize) -> f64,
-    ) -> Result<Self, Error> {
-        match FACTORS.look_up(values)? {
-            Value::Real(factor) => Self::of(memory, count, &|_| factor, size),
-            Value::Matrix { rows, columns, elements } => {
-                Error::check_length(FACTORS.name, rows * columns, count)?;
-                Self::of(memory, count, elements, size)
-            }
-            _ => Err(Error::value(FACTORS.name, f64::NAN, "numbers")),
-        }
-    }
-
-    fn of(
-        memory: M,
-        count: usize,
-        factor: &dyn Fn(usize) -> f64,
-        size: &dyn Fn(usize) -> f64,
-    ) -> Result<Self, Error> {
-        let n = memory.parameters();
-        let (mut sizes, mut factors, mut end) = (memory.vector(), memory.vector(), 0.0);
-        for b in 0..count {
-            let one = size(b);
-            end += one;
-            if !(one >= 1.0 && libm::trunc(one) == one && end <= n as f64) {
-                return Err(refuse(BLOCKS.name, b, one, "whole numbers >= 1 that add up to n"));
-            }
-            let lambda = FACTORS
-                .convert(factor(b))
-                .map_err(|_| refuse(FACTORS.name, b, factor(b), FACTORS.range.words))?;
-            sizes.as_mut()[b] = M::Real::from_f64(one);
-            factors.as_mut()[b] = lambda;
-        }
-        if end != n as f64 {
-            return Err(Error::value(
-                BLOCKS.name,
-                end,
-                "sizes that add up to the number of parameters",
-            ));
-        }
-        Ok(Self { count, sizes, factors })
-    }
-
-    /// Each block: its first parameter, its size and its factor.
-    #[inline]
-    fn blocks(&self) -> impl Iterator<Item = (usize, usize, M::Real)> + '_ {
-        let sizes = self.sizes.as_ref()[..self.count].iter().map(|size| size.to_f64() as usize);
-        sizes.zip(self.factors.as_ref()).scan(0, |start, (size, &factor)| {
-            *start += size;
-            Some((*start - size, size, factor))
-        })
+    /// The factors of the blocks.
+    fn factors(&self) -> &[M::Real] {
+        &self.factors.as_ref()[..self.blocks.count()]
     }
 
     /// The trace of P̄: that of each block, divided by its λ.
-    fn discounted_trace(&self, state: &BlockFactors<M>) -> M::Real {
-        let mut offset = 0;
-        self.blocks().fold(M::Real::ZERO, |sum, (start, size, lambda)| {
-            let columns = &state.columns.as_ref()[offset..];
-            offset += length::<M::Real>(size);
-            sum + trace(columns, &state.diagonal.as_ref()[start..start + size]) / lambda
-        })
-    }
-
-    /// Takes the blocks of the first P.
-    fn start_once(&self, state: &mut BlockFactors<M>, factor: &Factor<M>) {
-        if state.started == 0 {
-            let mut offset = 0;
-            for (start, size, _) in self.blocks() {
-                state.start_block(factor, start, size, offset);
-                offset += length::<M::Real>(size);
-            }
-            state.started = 1;
-        }
-    }
-}
-
-/// R_bb ← R_bb + φ̄_bᵀφ̄_b for the block of parameters from `start` on.
-#[inline]
-fn measure_block<M: Memory>(
-    (columns, diagonal): (&mut [M::Real], &mut [M::Real]),
-    start: usize,
-    sample: &Sample<'_, M>,
-    gain: &mut [M::Real],
-) {
-    for i in 0..sample.rows() {
-        let row = &sample.row(i)[start..start + diagonal.len()];
-        bierman(columns, diagonal, row, gain);
-    }
-}
-
-fn refuse(parameter: &'static str, index: usize, value: f64, allowed: &'static str) -> Error {
-    Error::Value { parameter, index: Some(index), value, allowed }
-}
-
-/// R_bb⁻¹ of every block, each U D Uᵀ.
-#[derive(Clone, Debug)]
-pub struct BlockFactors<M: Memory> {
-    /// one block after the other, each packed as in [`Factor`]
-    columns: M::Packed,
-    diagonal: M::Vector,
-    /// 1 once taken from the first P
-    started: u64,
-    work: M::Square,
-}
-
-impl<M: Memory> BlockFactors<M> {
-    /// Back to before the first sample.
-    fn clear(&mut self) {
-        self.columns.as_mut().fill(M::Real::ZERO);
-        self.diagonal.as_mut().fill(M::Real::ZERO);
-        self.started = 0;
-    }
-
-    /// R_bb⁻¹ = (B Bᵀ)⁻¹ with B the rows D^(−1/2)U⁻¹e_i of the block: when q_t = Σ_u U_ut B_u are
-    /// the rows made orthogonal one after the other, D_t = 1/‖q_t‖².
-    fn start_block(&mut self, factor: &Factor<M>, start: usize, size: usize, offset: usize) {
-        let n = factor.parameters();
-        let rows = &mut self.work.as_mut()[..size * n];
-        let columns = &mut self.columns.as_mut()[offset..offset + length::<M::Real>(size)];
-        set_identity(columns, size);
-        for t in 0..size {
-            let (done, row) = rows.split_at_mut(t * n);
-            let row = &mut row[..n];
-            row.fill(M::Real::ZERO);
-            row[start + t] = M::Real::ONE;
-            factor.solve(row);
-            for (x, &d) in row.iter_mut().zip(factor.diagonal_elements()) {
-                *x /= d.sqrt();
-            }
-            for (u, q) in done.chunks_exact(n).enumerate() {
-                let share = dot(q, row) / dot(q, q);
-                add_scaled(row, -share, q);
-                columns[place::<M::Real>(u, t)] -= share;
-                for i in 0..u {
-                    let above = columns[place::<M::Real>(i, u)];
-                    columns[place::<M::Real>(i, t)] -= share * above;
-                }
-            }
-            self.diagonal.as_mut()[start + t] =
-                (M::Real::ONE / dot(row, row)).max(M::Real::FLOOR).min(M::Real::CEILING);
-        }
+    fn discounted_trace(&self, state: &mut BlockFactors<M>) -> M::Real {
+        let blocks = state.each(&self.blocks).zip(self.factors());
+        blocks.fold(M::Real::ZERO, |sum, (block, &lambda)| sum + block.trace() / lambda)
     }
 }
 
@@ -249,65 +114,39 @@ impl<M: Memory> Forgetting<M> for Multiple<M> {
     type State = BlockFactors<M>;
 
     fn configure(values: &dyn Values, memory: M) -> Result<Self, Error> {
-        match BLOCKS.look_up(values)? {
-            Value::Real(size) => {
-                let count = memory.parameters() as f64 / BLOCKS.check(size)?;
-                Self::with_blocks(values, memory, libm::floor(count) as usize, &|_| size)
-            }
-            Value::Matrix { rows, columns, elements } => {
-                Self::with_blocks(values, memory, rows * columns, elements)
-            }
-            _ => Err(Error::value(BLOCKS.name, f64::NAN, "numbers")),
-        }
+        let (blocks, mut factors) = (Blocks::configure(&BLOCKS, values, memory)?, memory.vector());
+        FACTORS.list(values, blocks.count(), |b, factor| factors.as_mut()[b] = factor)?;
+        Ok(Self { blocks, factors })
     }
 
     fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>)) {
-        let (rows, columns) = (1, self.count);
-        let factors = |b: usize| self.factors.as_ref()[b].to_f64();
+        let (rows, columns) = (1, self.blocks.count());
+        let factors = |b: usize| self.factors()[b].to_f64();
         each(FACTORS.name, Value::Matrix { rows, columns, elements: &factors });
-        let sizes = |b: usize| self.sizes.as_ref()[b].to_f64();
+        let sizes = |b: usize| self.blocks.size(b);
         each(BLOCKS.name, Value::Matrix { rows, columns, elements: &sizes });
     }
 
     fn start(&self, memory: M) -> BlockFactors<M> {
-        let (columns, diagonal) = (memory.packed(), memory.vector());
-        BlockFactors { columns, diagonal, started: 0, work: memory.square() }
+        BlockFactors::new(memory)
     }
 
     fn bounds(&self, constants: &Constants) -> Bounds {
         // R_bb ≤ β/(1 − λ_b), and R is at most blkdiag(λ_b R_bb) + β I after a sample
-        let most = self.blocks().fold(0.0, |most, (_, _, lambda)| lambda.to_f64().max(most));
+        let most = self.factors().iter().fold(0.0, |most, lambda| lambda.to_f64().max(most));
         Bounds { below: constants.least_remembered(most), above: None }
     }
 
     fn follow(&self, state: &mut BlockFactors<M>, step: Step<'_, '_, M>) {
-        self.start_once(state, step.factor);
-        let mut offset = 0;
-        for (start, size, _) in self.blocks() {
-            let columns = &mut state.columns.as_mut()[offset..offset + length::<M::Real>(size)];
-            let diagonal = &mut state.diagonal.as_mut()[start..start + size];
-            measure_block((columns, diagonal), start, step.sample, step.work.gain.as_mut());
-            offset += length::<M::Real>(size);
+        state.start_once(&self.blocks, step.factor);
+        for mut block in state.each(&self.blocks) {
+            block.measure(step.sample, step.work.gain.as_mut());
         }
     }
 
     fn change_units(&self, state: &mut BlockFactors<M>, ratios: &[M::Real]) {
-        let mut offset = 0;
-        for (start, size, _) in self.blocks() {
-            let columns = &mut state.columns.as_mut()[offset..offset + length::<M::Real>(size)];
-            let ratios = &ratios[start..start + size];
-            for (j, &ratio) in ratios.iter().enumerate() {
-                for (i, &above) in ratios[..j].iter().enumerate() {
-                    columns[place::<M::Real>(i, j)] *= above / ratio;
-                }
-                let d = state.diagonal.as_ref()[start + j] * ratio * ratio;
-                let d = d.max(M::Real::FLOOR).min(M::Real::CEILING);
-                // 0 before the first sample
-                if state.started != 0 {
-                    state.diagonal.as_mut()[start + j] = d;
-                }
-            }
-            offset += length::<M::Real>(size);
+        if state.is_started() {
+            state.each(&self.blocks).for_each(|mut block| block.change_units(ratios));
         }
     }
 
@@ -326,8 +165,8 @@ impl<M: Memory> Forgetting<M> for Multiple<M> {
         state: &mut BlockFactors<M>,
         step: Step<'_, '_, M>,
     ) -> Result<Forgotten, Error> {
-        let fresh = state.started == 0;
-        self.start_once(state, step.factor);
+        let fresh = !state.is_started();
+        state.start_once(&self.blocks, step.factor);
         // of the blocks themselves: what rounding made of P says nothing of them
         if let Err(error) = step.factor.set_bound(self.discounted_trace(state)) {
             if fresh {
@@ -336,29 +175,12 @@ impl<M: Memory> Forgetting<M> for Multiple<M> {
             return Err(error);
         }
         step.factor.clear_columns();
-        let mut offset = 0;
-        for (start, size, lambda) in self.blocks() {
-            let columns = &mut state.columns.as_mut()[offset..offset + length::<M::Real>(size)];
-            let diagonal = &mut state.diagonal.as_mut()[start..start + size];
-            diagonal.iter_mut().for_each(|d| *d = (*d / lambda).min(M::Real::CEILING));
-            step.factor.put_block(start, columns, diagonal);
-            measure_block((columns, diagonal), start, step.sample, step.work.gain.as_mut());
-            offset += length::<M::Real>(size);
+        for (mut block, &lambda) in state.each(&self.blocks).zip(self.factors()) {
+            block.discount(lambda);
+            step.factor.put_block(block.start, block.columns, block.diagonal);
+            block.measure(step.sample, step.work.gain.as_mut());
         }
         Ok(Forgotten::rank(step.factor.parameters()))
-    }
-}
-
-impl<M: Memory> State<M::Real> for BlockFactors<M> {
-    fn visit(&mut self, visitor: &mut dyn Visitor<M::Real>) {
-        visitor.reals(self.columns.as_mut());
-        visitor.reals(self.diagonal.as_mut());
-        visitor.whole(&mut self.started);
-    }
-
-    fn is_sound(&self) -> bool {
-        let in_range = |d: &M::Real| *d >= M::Real::FLOOR && *d <= M::Real::CEILING;
-        is_finite(self) && (self.started == 0 || self.diagonal.as_ref().iter().all(in_range))
     }
 }
 
@@ -390,7 +212,8 @@ mod tests {
             let factors = [0.9; 2];
             assert!(Multiple::new(&factors[..blocks.len()], blocks, memory).is_err());
         }
-        assert!(Multiple::new(&[0.9, 1.1], &[1, 2], memory).is_err());
+        let second = Multiple::new(&[0.9, 1.1], &[1, 2], memory).unwrap_err();
+        assert!(matches!(second, Error::Value { parameter: "factors", index: Some(1), .. }));
         assert!(Multiple::new(&[0.9], &[1, 2], memory).is_err());
     }
 }

@@ -3,6 +3,7 @@
 use crate::choice::{Parameter, Value, Values};
 use crate::covariance::dense::check_symmetric;
 use crate::covariance::spectrum::make_orthogonal;
+use crate::covariance::Factor;
 use crate::error::Error;
 use crate::memory::Memory;
 use forgetting_kernels::kernel::functions::{add_scaled, dot};
@@ -167,6 +168,23 @@ impl<M: Memory> Root<M> {
             _ if i == j => given[i],
             _ => M::Real::ZERO,
         }
+    }
+
+    /// The matrix as a covariance.
+    ///
+    /// # Errors
+    /// [`Error::Indefinite`] names the matrix `name` unless it is positive definite, [`Error::Range`]
+    /// where its trace is too large.
+    pub fn factor(&self, name: &'static str) -> Result<Factor<M>, Error> {
+        let n = self.memory.parameters();
+        let mut factor = Factor::scalar(self.memory, M::Real::ONE)?;
+        match self.form {
+            Form::Dense => factor.replace(self.given.clone().as_mut(), name)?,
+            Form::Scalar | Form::Diagonal => {
+                factor.replace_diagonal(&self.given.as_ref()[..n], name)?;
+            }
+        }
+        Ok(factor)
     }
 
     /// Names the matrix as it was given.

@@ -1,6 +1,7 @@
 //! Streams whose initial covariance follows the data: each is the estimator, bit for bit.
 
-use super::{expected, given, Factor, Given, COUNT};
+use super::beside::expected;
+use super::given::{fleet, given, noise, Factor, Given, COUNT};
 use forgetting::choice::Defaults;
 use forgetting::fleet::{Fleet, Outputs, Samples};
 use forgetting::rates::AnyRate;
@@ -95,7 +96,7 @@ impl<T: Kernels> Both<T> {
             let own: Vec<_> = (0..n).map(|j| own[j * n + j]).collect();
             assert_eq!(&variances[i * n..(i + 1) * n], own, "{what}, stream {i}");
         }
-        let phi: Vec<T> = (0..COUNT * n).map(|i| T::from_f64(super::noise(i))).collect();
+        let phi: Vec<T> = (0..COUNT * n).map(|i| T::from_f64(noise(i))).collect();
         let mut predicted = vec![T::ZERO; COUNT];
         self.fleet.predict(0, &phi, &mut predicted).unwrap();
         for (i, single) in self.singles.iter().enumerate() {
@@ -207,7 +208,7 @@ fn new_streams_join_old_ones() {
 fn of_more_parameters_a_stream_has_an_initial_covariance() {
     let follower = follower::<f64>("exponential", 11);
     assert!(matches!(Fleet::of(follower.clone()), Err(Error::Unsupported { .. })));
-    let mut fleet = super::fleet::<f64>("exponential", 11, 0.95);
+    let mut fleet = fleet::<f64>("exponential", 11, 0.95);
     let before = fleet.get(0).to_bytes();
     assert!(matches!(fleet.put(0, follower), Err(Error::Unsupported { .. })));
     assert_eq!(fleet.get(0).to_bytes(), before);

@@ -1,7 +1,7 @@
 //! Streams that are copied to another fleet, and taken away again.
 
-use super::{estimator, given, Outputs, Samples, COUNT};
-use forgetting::fleet::Fleet;
+use super::given::{estimator, given, COUNT};
+use forgetting::fleet::{Fleet, Outputs, Samples};
 use forgetting::saved::AnyEstimator;
 use forgetting::{Dynamic, Error, Estimator, Kernels, Prior};
 

@@ -1,7 +1,8 @@
 //! At most ten parameters: U, D and θ stay in registers.
 
 use super::super::bierman::largest;
-use super::super::measure::{along, scale, walk, Bounds};
+use super::super::measure::bounds::Bounds;
+use super::super::measure::forms::{along, scale, walk};
 use super::super::outcome::Outcome;
 use super::super::registers::{InPlace, Small, Unit};
 use super::super::vectors::few_products;

@@ -1,6 +1,7 @@
 //! A whole record in one call, all or nothing.
 
 mod bounds;
+mod kept;
 mod noise;
 mod outputs;
 mod pause;
@@ -17,6 +18,7 @@ use crate::missing::{is_missing, Missing};
 use crate::number::{Number, View};
 pub(crate) use bounds::RecordBounds;
 use forgetting::{AnyEstimator, Outcome, Skip};
+pub(crate) use kept::{arrays, push, room};
 pub(crate) use noise::RecordNoise;
 pub(crate) use outputs::Outputs;
 pub use pause::GoOn;

@@ -1,10 +1,11 @@
 //! The outputs of a record as they grow, sample by sample.
 
+use super::kept::{arrays, push, room};
 use super::run::Run;
 use super::shapes::Sizes;
 use crate::error::Error;
 use crate::estimator::accessors::by_parameter;
-use crate::number::{Array, Elements, Number};
+use crate::number::{Elements, Number};
 use forgetting::{Answer, AnyEstimator, Dynamic, Factor, Memory, Outcome, Skip, Update};
 
 /// The outputs that were asked for, each as long as there were samples.
@@ -190,24 +191,9 @@ impl<T: Number> Outputs<T> {
             ("covariance", numbers(self.covariance), square.clone()),
             ("prior_covariance", numbers(self.prior_covariance), square),
         ];
-        let outputs = outputs.into_iter().filter_map(|(name, elements, shape)| {
-            elements.map(|elements| (name, Array { shape, elements }))
-        });
         let reweighted = self.reweighted;
-        Run { outputs: outputs.collect(), samples, used: self.used, reweighted }
+        Run { outputs: arrays(outputs), samples, used: self.used, reweighted }
     }
-}
-
-/// Room for the elements of the output `name`, of this shape, if it is among `names`.
-fn room<X>(names: &[&str], name: &str, shape: &[usize]) -> Result<Option<Vec<X>>, Error> {
-    if !names.contains(&name) {
-        return Ok(None);
-    }
-    let length = shape.iter().try_fold(1usize, |length, &size| length.checked_mul(size));
-    let mut elements = Vec::new();
-    let reserved = length.map(|length| elements.try_reserve_exact(length));
-    reserved.and_then(Result::ok).ok_or(forgetting::Error::Memory)?;
-    Ok(Some(elements))
 }
 
 /// Appends the n x n numbers of P.
@@ -215,11 +201,4 @@ fn reconstruct<T: Number>(covariances: &mut Vec<T>, factor: &Factor<Dynamic<T>>)
     let (start, n) = (covariances.len(), factor.parameters());
     covariances.resize(start + n * n, T::ZERO);
     factor.reconstruct(&mut covariances[start..]);
-}
-
-#[inline(always)]
-fn push<T>(values: &mut Option<Vec<T>>, value: T) {
-    if let Some(values) = values {
-        values.push(value);
-    }
 }

@@ -2,7 +2,8 @@
 //! they span is as good, and the sample decides which.
 
 use super::jacobi::rotation;
-use super::{rotate, two_rows, Spectrum};
+use super::rows::{rotate, two_rows};
+use super::Spectrum;
 use crate::memory::Memory;
 use core::ops::Range;
 use forgetting_kernels::kernel::functions::{add_scaled, dot};

@@ -1,6 +1,7 @@
 //! What a rank-one change leaves alone is left out of the secular equation.
 
-use super::{rotate, two_rows, Spectrum};
+use super::rows::{rotate, two_rows};
+use super::Spectrum;
 use crate::memory::Memory;
 use forgetting_kernels::kernel::functions::dot;
 use forgetting_kernels::Real;

@@ -1,6 +1,7 @@
 //! The spectrum from the factor, by Jacobi rotations.
 
-use super::{rotate, two_rows, Spectrum};
+use super::rows::{rotate, two_rows};
+use super::Spectrum;
 use crate::covariance::Factor;
 use crate::memory::Memory;
 use forgetting_kernels::kernel::functions::{add_scaled, dot, multiply_transposed};

@@ -1,4 +1,4 @@
-//! When to start afresh: the criteria of `covariance_resetting`.
+//! When to start afresh.
 
 use crate::choice::{Parameter, Range, Value, Values};
 use crate::covariance::Factor;

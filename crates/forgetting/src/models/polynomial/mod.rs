@@ -11,10 +11,11 @@
 //! squares takes φ in its place (Young 1968; Panuska 1969).
 //!
 //! θ stays where C and all Fᵢ are stable: the step to what the estimator says is halved until they are.
-//! At first θ is far from where it will end and ψ says little: filters are contracted towards 1,
-//! and samples count less (both fade out over some forty samples a parameter).
 
-use super::known::{Given, Known};
+mod informed;
+mod start;
+
+use super::known::Known;
 use super::linearised::Linearised;
 use super::orders::{Layout, Orders};
 use super::origin::Origin;
@@ -22,17 +23,11 @@ use super::regressor::{self, product};
 use super::signals::{Filters, Signals};
 use super::stable::is_stable;
 use crate::error::Error;
-use crate::memory::state::Visitor;
+use crate::memory::state::{shows_finite, Visitor};
 use alloc::vec;
 use alloc::vec::Vec;
-use forgetting_kernels::Real;
+use start::Start;
 
-/// Samples a parameter over which the start fades out.
-const START: f64 = 40.0;
-/// The first sample counts exp(−5) of a later one.
-const FIRST_WEIGHT: f64 = 5.0;
-/// Times [`START`] after which nothing of it is left.
-const OVER: f64 = 40.0;
 /// Halvings of a step after which θ stays where it is.
 const HALVINGS: usize = 30;
 
@@ -61,8 +56,7 @@ pub struct Polynomial {
     samples: u64,
     /// samples until all lags are measured
     incomplete: u64,
-    /// 1 at the first sample, 0 when the start is over
-    start: f64,
+    start: Start,
     /// whether all signals are of a size that can be gone on with
     sound: bool,
     phi: Vec<f64>,
@@ -89,7 +83,7 @@ impl Polynomial {
             work: Vec::new(),
             filters: Filters::default(),
             samples: 0,
-            start: 1.0,
+            start: Start::after(0, n),
             sound: true,
             orders,
             method,
@@ -97,53 +91,6 @@ impl Polynomial {
         };
         model.set_filters();
         Ok(model)
-    }
-
-    /// The same at rest where something is known of its parameters, in the order of θ: θ begins there. A
-    /// constant of which something is known is that of signals measured from zero.
-    ///
-    /// # Errors
-    /// [`Error`] names the value that is not finite, or says that C or F is unstable with these values,
-    /// or that nothing is left to estimate.
-    pub fn knowing(mut self, given: &[Given]) -> Result<Self, Error> {
-        Error::check_length("given", given.len(), self.theta.len())?;
-        self.known = Known::new(given)?;
-        let theta = self.known.values.clone();
-        if !self.keeps_stable(&theta) {
-            let reason = "C or F is unstable with the values that are known of its coefficients";
-            return Err(Error::Unsupported { reason });
-        }
-        self.theta = theta;
-        let from_zero = given[self.layout.constant.clone()].iter().any(|x| *x != Given::Nothing);
-        self.origin = Origin::new(self.orders.inputs.len(), self.orders.constant && !from_zero);
-        self.set_filters();
-        Ok(self)
-    }
-
-    /// What is known of each parameter.
-    #[must_use]
-    pub fn given(&self) -> &[Given] {
-        &self.known.given
-    }
-
-    /// Whether anything is known.
-    #[must_use]
-    pub fn is_informed(&self) -> bool {
-        self.known.is_something()
-    }
-
-    /// Places of the parameters that are estimated, in ascending order.
-    #[must_use]
-    pub fn estimated(&self) -> &[usize] {
-        &self.known.left
-    }
-
-    /// Writes to `theta` all parameters, where an estimator says `found` of those that are estimated.
-    pub fn complete(&self, found: impl Iterator<Item = f64>, theta: &mut [f64]) {
-        theta.copy_from_slice(&self.known.values);
-        for (&place, value) in self.known.left.iter().zip(found) {
-            theta[place] += value;
-        }
     }
 
     /// Its orders.
@@ -212,7 +159,7 @@ impl Polynomial {
         Linearised {
             prediction: prediction + origin,
             shift: psi.iter().zip(estimated).map(|(x, c)| x * c).sum::<f64>() - prediction - origin,
-            scale: self.scale(),
+            scale: if self.orders.is_linear() { 1.0 } else { self.start.scale() },
             complete: self.incomplete == 0 && self.origin.is_known(),
         }
     }
@@ -258,8 +205,7 @@ impl Polynomial {
     #[must_use]
     pub fn is_sound(&self) -> bool {
         let mut model = self.clone();
-        let mut finite = true;
-        model.signals.visit(&mut Finite(&mut finite));
+        let finite = shows_finite(|visitor| model.signals.visit(visitor));
         let theta = core::mem::take(&mut model.theta);
         finite && theta.iter().all(|x| x.is_finite()) && model.keeps_stable(&theta)
     }
@@ -303,26 +249,7 @@ impl Polynomial {
     }
 
     fn set_filters(&mut self) {
-        let age = self.samples as f64 / (START * self.theta.len() as f64);
-        self.start = if age < OVER { Real::exp(-age) } else { 0.0 };
-        self.filters.set(&self.theta, &self.layout, 1.0 - self.start);
+        self.start = Start::after(self.samples, self.theta.len());
+        self.filters.set(&self.theta, &self.layout, self.start.contraction());
     }
-
-    fn scale(&self) -> f64 {
-        if self.start == 0.0 || self.orders.is_linear() {
-            return 1.0;
-        }
-        Real::exp(-0.5 * FIRST_WEIGHT * self.start)
-    }
-}
-
-/// Whether all numbers seen are finite.
-struct Finite<'a>(&'a mut bool);
-
-impl Visitor<f64> for Finite<'_> {
-    fn reals(&mut self, values: &mut [f64]) {
-        *self.0 &= values.iter().all(|x| x.is_finite());
-    }
-
-    fn whole(&mut self, _: &mut u64) {}
 }
