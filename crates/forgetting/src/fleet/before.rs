@@ -1,7 +1,7 @@
 //! What streams were before their samples, so that they can be that again.
 
-use super::grow::reserve;
 use super::part::Part;
+use super::size::reserve;
 use super::Line;
 use crate::error::Error;
 use alloc::vec::Vec;

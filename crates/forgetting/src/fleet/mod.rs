@@ -7,7 +7,6 @@
 
 mod before;
 mod following;
-mod grow;
 mod kind;
 mod part;
 mod priors;
@@ -34,8 +33,8 @@ use forgetting_kernels::kernel::lanes::streams::Streams;
 use forgetting_kernels::kernel::lanes::SCRATCH;
 use forgetting_kernels::kernel::layout::FEW;
 use forgetting_kernels::Kernels;
-use grow::extend;
 use priors::Priors;
+use size::extend;
 use starts::Starts;
 use transfer::numbers_of;
 use units::Units;

@@ -1,6 +1,6 @@
 //! What each stream starts from: the same for all, or a prior of its own.
 
-use super::grow::reserve;
+use super::size::reserve;
 use crate::covariance::Prior;
 use crate::error::Error;
 use crate::memory::state::Visitor;

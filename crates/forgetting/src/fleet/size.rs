@@ -1,6 +1,6 @@
 //! How many streams there are: new ones, copies of others, and fewer again.
 
-use super::{check_kind, reserve, strength, Fleet, Line};
+use super::{check_kind, strength, Fleet, Line};
 use crate::error::Error;
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -138,4 +138,19 @@ impl<T: Kernels> Fleet<T> {
             }
         }
     }
+}
+
+/// Room for `length` numbers in all.
+pub(super) fn reserve<X>(numbers: &mut Vec<X>, length: usize) -> Result<(), Error> {
+    let more = length.saturating_sub(numbers.len());
+    numbers.try_reserve(more).map_err(|_| Error::Memory)
+}
+
+/// Makes them at least `length` numbers, each new one `x`.
+pub(super) fn extend<X: Clone>(numbers: &mut Vec<X>, length: usize, x: X) -> Result<(), Error> {
+    reserve(numbers, length)?;
+    if numbers.len() < length {
+        numbers.resize(length, x);
+    }
+    Ok(())
 }

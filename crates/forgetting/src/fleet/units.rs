@@ -1,6 +1,6 @@
 //! The units of the streams that follow the data, as lines beside their states.
 
-use super::grow::reserve;
+use super::size::reserve;
 use super::starts::Starts;
 use super::Line;
 use crate::error::Error;
