@@ -46,6 +46,8 @@
 //! *Exponential resetting and cyclic resetting recursive least squares*, IEEE Control Systems
 //! Letters 7, 2023.
 
+mod passed;
+
 use super::{Forgetting, Forgotten, Step};
 use crate::choice::{
     About, Bounds, Constants, Guarantee, Guarantees, Input, Kind, Parameter, Range, Setting, Value,
@@ -62,6 +64,9 @@ use forgetting_kernels::kernel::form::{shrink, Form};
 use forgetting_kernels::kernel::functions::dot;
 use forgetting_kernels::kernel::layout::FEW;
 use forgetting_kernels::Real;
+use passed::Turns;
+
+pub(crate) use passed::steps_after;
 
 pub(crate) const PROCESS_NOISE: Parameter = Parameter::elements(
     "process_noise",
@@ -83,9 +88,6 @@ pub(crate) const BOUND: Parameter = Parameter {
 pub(crate) const SCHEDULE: Parameter = cycle::schedule(
     "when process_noise is added: all of it at each sample, or one direction a sample, in O(n^2)",
 );
-
-/// Of what a long gap leaves of P, in rounding units: several products are rounded on the way.
-const ROUNDING: f64 = 32.0;
 
 /// So many dyads a sample are added one by one.
 const FEW_DYADS: usize = 4;
@@ -123,43 +125,6 @@ pub struct RandomWalk<M: Memory> {
     /// 1/b; 0 without a bound
     per_bound: M::Real,
     turns: Option<Turns<M::Real>>,
-}
-
-/// What a turn of a cycle does.
-#[derive(Clone, Copy, Debug)]
-struct Turns<T> {
-    /// κ^(r/2)
-    scale: T,
-    /// (1 − κʳ)/(1 − κ), r without a bound
-    samples: T,
-    /// r
-    rank: f64,
-    /// 1 − κ, 0 without a bound
-    share: f64,
-}
-
-impl<T: Real> Turns<T> {
-    /// Of a cycle of r = `rank` turns, each `elapsed` after the one before.
-    #[inline]
-    fn new(rank: f64, share: f64, elapsed: f64) -> Self {
-        let passed = rank * elapsed;
-        if !(share > 0.0) {
-            return Self { scale: T::ONE, samples: T::from_f64(passed), rank, share };
-        }
-        let logarithm = passed * libm::log1p(-share);
-        let scale = T::from_f64(libm::exp(0.5 * logarithm)).max(T::EPSILON);
-        let samples = T::from_f64(-libm::expm1(logarithm) / share);
-        Self { scale, samples, rank, share }
-    }
-
-    /// The same where so much time has passed since the last turn of the one before.
-    #[inline]
-    fn after(self, elapsed: T) -> Self {
-        if elapsed == T::ONE {
-            return self;
-        }
-        Self::new(self.rank, self.share, elapsed.to_f64())
-    }
 }
 
 impl<M: Memory> RandomWalk<M> {
@@ -232,18 +197,6 @@ impl<M: Memory> RandomWalk<M> {
         self.add(j, turns.samples, step.factor, step.work);
         Ok(())
     }
-}
-
-/// The same where Q is this share of the bound, κ = 1 − share; 0 without a bound.
-#[inline]
-pub(crate) fn steps_after<T: Real>(share: f64, elapsed: T) -> T {
-    if elapsed == T::ONE || !(share > 0.0) {
-        return elapsed;
-    }
-    let kept = libm::exp(elapsed.to_f64() * libm::log1p(-share));
-    // so much that rounding cannot make what is left of P negative
-    let least = ROUNDING * T::EPSILON.to_f64();
-    T::from_f64((1.0 - kept.max(least)) / share)
 }
 
 impl<M: Memory> Forgetting<M> for RandomWalk<M> {
@@ -343,75 +296,4 @@ impl<M: Memory> Forgetting<M> for RandomWalk<M> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::choice::Defaults;
-    use crate::testing::{covariance, forget, memory, Dense};
-
-    #[test]
-    fn adds_the_covariance_of_a_step() {
-        let (p, phi) = (covariance(), Dense::new(1, &[0.8, -0.2, 1.1]));
-        let rule = RandomWalk::configure(&Defaults, memory(&phi, 1)).unwrap();
-        let outcome = forget(&rule, &mut None, &p, &phi, 0.5);
-        let expected = p + 1e-4 * Dense::identity(3);
-        assert!(outcome.covariance.distance(&expected) < 1e-15);
-    }
-
-    #[test]
-    fn a_bound_draws_the_covariance_towards_it() {
-        let (p, phi) = (covariance(), Dense::new(1, &[0.8, -0.2, 1.1]));
-        let rule = RandomWalk::bounded(0.5, 4.0, memory(&phi, 1)).unwrap();
-        let outcome = forget(&rule, &mut None, &p, &phi, 0.5);
-        let expected = 0.875 * p + 0.5 * Dense::identity(3);
-        assert!(outcome.covariance.distance(&expected) < 1e-14);
-    }
-
-    /// A cycle without data is as many samples of the other schedule: of all of P without a bound, of
-    /// the variances with one.
-    #[test]
-    fn a_cycle_in_silence_is_as_many_samples() {
-        let (start, silence) = (covariance(), Dense::new(1, &[0.0; 3]));
-        let m = memory(&silence, 1);
-        let noise = Root::scalar(&PROCESS_NOISE, 0.3, m).unwrap();
-        for all in [RandomWalk::new(noise), RandomWalk::bounded(0.3, 9.0, m).unwrap()] {
-            let turns = all.clone().cyclic().unwrap();
-            let (mut p, mut expected, mut cycle) = (start.clone(), start.clone(), turns.start(m));
-            for _ in 0..3 {
-                p = forget(&turns, &mut cycle, &p, &silence, 0.5).covariance;
-                expected = forget(&all, &mut None, &expected, &silence, 0.5).covariance;
-            }
-            for k in (0..9).filter(|k| all.bound.is_none() || k % 4 == 0) {
-                assert!((p.elements[k] - expected.elements[k]).abs() < 1e-14, "{k}");
-            }
-        }
-    }
-
-    #[test]
-    fn cycles_of_a_full_matrix_have_no_bound() {
-        let m = memory(&Dense::new(1, &[0.0; 2]), 1);
-        let full = Dense::new(2, &[2.0, 1.0, 1.0, 2.0]);
-        let elements = |k: usize| full.elements[k];
-        struct Full<'a>(&'a dyn Fn(usize) -> f64);
-        impl Values for Full<'_> {
-            fn get(&self, name: &str) -> Option<Value<'_>> {
-                match name {
-                    "process_noise" => {
-                        Some(Value::Matrix { rows: 2, columns: 2, elements: self.0 })
-                    }
-                    "bound" => Some(Value::Real(9.0)),
-                    "schedule" => Some(Value::Word("cyclic")),
-                    _ => None,
-                }
-            }
-        }
-        let refused = RandomWalk::configure(&Full(&elements), m).unwrap_err();
-        assert!(matches!(refused, Error::Value { parameter: "bound", .. }));
-    }
-
-    #[test]
-    fn a_bound_is_above_the_noise() {
-        let memory = memory(&Dense::new(1, &[1.0]), 1);
-        let refused = RandomWalk::bounded(0.5, 0.5, memory).unwrap_err();
-        assert!(matches!(refused, Error::Value { parameter: "bound", .. }));
-    }
-}
+mod tests;
