@@ -140,7 +140,7 @@ def test_what_cannot_be_tried_is_said_in_one_sentence(model, words, record, caps
         (["--model", "armax:na=x"], "'na=x' is not an order; write armax:na=1,nb=1,nc=1,nk=1"),
         (["--model", "armax:na=1,na=2"], "na is said twice"),
         (["--model", "arma:na=1,nc=1"], "nb = 0 goes with u = None"),
-        (["--model", "armax:na=99999999999"], "na = 99999999999, allowed"),
+        (["--model", "armax:na=99999999999"], "na is 99999999999; it must be"),
         (["--model", "armax:na=1", "--arx", "1,1,1"], "say the model once"),
     ],
 )
