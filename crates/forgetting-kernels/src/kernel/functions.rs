@@ -5,7 +5,7 @@ use super::form::Form;
 use super::kernels::Kernels;
 use super::measure::{Measure, Place};
 use super::measured::Measured;
-use super::symmetric::{Scale, SymmetricMultiply, SymmetricSubtract};
+use super::symmetric::{SymmetricMultiply, SymmetricSubtract};
 use super::triangle::{Leverage, Multiply, MultiplyTransposed, Solve};
 use super::vectors::{AddScaled, Arrive, Dot};
 
@@ -82,14 +82,8 @@ pub fn symmetric_multiply<T: Kernels>(matrix: &[T], x: &[T], product: &mut [T]) 
     T::symmetric_multiply(SymmetricMultiply { matrix, x, product });
 }
 
-/// A ← A − `x`·`x`ᵀ for the same A, O(n²).
+/// A ← `scale`·A − `x`·`x`ᵀ for the same A, O(n²).
 #[inline(always)]
-pub fn symmetric_subtract<T: Kernels>(matrix: &mut [T], x: &[T]) {
-    T::symmetric_subtract(SymmetricSubtract { matrix, x });
-}
-
-/// `x` ← c·`x` for numbers in whole chunks.
-#[inline(always)]
-pub fn scale<T: Kernels>(x: &mut [T], c: T) {
-    T::scale(Scale { x, c });
+pub fn symmetric_subtract<T: Kernels>(matrix: &mut [T], scale: T, x: &[T]) {
+    T::symmetric_subtract(SymmetricSubtract { matrix, scale, x });
 }

@@ -8,7 +8,7 @@ use super::lanes::Predict;
 use super::measure::Measure;
 use super::measured::Measured;
 use super::runs::Steps;
-use super::symmetric::{Scale, SymmetricMultiply, SymmetricSubtract};
+use super::symmetric::{SymmetricMultiply, SymmetricSubtract};
 use super::triangle::{Leverage, Multiply, MultiplyTransposed, Solve};
 use super::units::{ScaleRows, SumRoots};
 use super::variances::Variances;
@@ -39,10 +39,8 @@ pub trait Kernels: Real {
     fn multiply_transposed(task: MultiplyTransposed<'_, Self>);
     /// The product of a symmetric matrix and a vector.
     fn symmetric_multiply(task: SymmetricMultiply<'_, Self>);
-    /// A ← A − x·xᵀ for a symmetric matrix.
+    /// A ← c A − x·xᵀ for a symmetric matrix.
     fn symmetric_subtract(task: SymmetricSubtract<'_, Self>);
-    /// x ← c·x
-    fn scale(task: Scale<'_, Self>);
     /// The diagonal of P.
     fn variances(task: Variances<'_, Self>);
     /// Takes samples one after the other; returns how many.
@@ -90,7 +88,7 @@ macro_rules! compile_kernels {
             use $crate::kernel::measure::Measure;
             use $crate::kernel::measured::Measured;
             use $crate::kernel::runs::{self, Steps};
-            use $crate::kernel::symmetric::{Scale, SymmetricMultiply, SymmetricSubtract};
+            use $crate::kernel::symmetric::{SymmetricMultiply, SymmetricSubtract};
             use $crate::kernel::triangle::{Leverage, Multiply, MultiplyTransposed, Solve};
             use $crate::kernel::units::{ScaleRows, SumRoots};
             use $crate::kernel::variances::Variances;
@@ -141,10 +139,6 @@ macro_rules! compile_kernels {
                 }
                 $(#[$inline])?
                 fn symmetric_subtract(task: SymmetricSubtract<'_, Self>) {
-                    <$Dispatch>::run(task)
-                }
-                $(#[$inline])?
-                fn scale(task: Scale<'_, Self>) {
                     <$Dispatch>::run(task)
                 }
                 $(#[$inline])?

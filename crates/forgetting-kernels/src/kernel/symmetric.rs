@@ -76,10 +76,12 @@ fn columns<T: Real, V: Vector<T>, const C: usize>(
     }
 }
 
-/// A ← A − x·xᵀ, which leaves it as symmetric as it was, bit for bit. O(n²).
+/// A ← c A − x·xᵀ, which leaves it as symmetric as it was, bit for bit. O(n²).
 pub struct SymmetricSubtract<'a, T> {
     /// A
     pub matrix: &'a mut [T],
+    /// c
+    pub scale: T,
     /// n numbers
     pub x: &'a [T],
 }
@@ -95,41 +97,16 @@ impl<T: Real> Kernel<T> for SymmetricSubtract<'_, T> {
     #[inline(always)]
     fn run<V: Vector<T>, const GROUP: usize>(self) {
         let (rows, across) = (T::chunks_mut(self.matrix).0, self.x.len().div_ceil(T::ROWS));
-        let x = Long::new(self.x);
+        let (x, scale) = (Long::new(self.x), V::splat(self.scale));
         let (full, tail) = x.first(across);
         for (row, &own) in rows.chunks_exact_mut(across).zip(self.x) {
             let own = V::splat(-own);
             for c in 0..full.len().min(row.len()) {
-                own.mul_add(V::load(&full[c]), V::load(&row[c])).store(&mut row[c]);
+                own.mul_add(V::load(&full[c]), scale * V::load(&row[c])).store(&mut row[c]);
             }
             if let (Some(x), Some(last)) = (tail, row.last_mut()) {
-                own.mul_add(V::load(x), V::load(last)).store(last);
+                own.mul_add(V::load(x), scale * V::load(last)).store(last);
             }
-        }
-    }
-}
-
-/// `x` ← c·`x`
-pub struct Scale<'a, T> {
-    /// any numbers in whole chunks
-    pub x: &'a mut [T],
-    /// the factor
-    pub c: T,
-}
-
-impl<T: Real> Kernel<T> for Scale<'_, T> {
-    type Output = ();
-
-    #[inline(always)]
-    fn size(&self) -> usize {
-        self.x.len()
-    }
-
-    #[inline(always)]
-    fn run<V: Vector<T>, const GROUP: usize>(self) {
-        let c = V::splat(self.c);
-        for chunk in T::chunks_mut(self.x).0 {
-            (c * V::load(chunk)).store(chunk);
         }
     }
 }

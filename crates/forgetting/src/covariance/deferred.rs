@@ -23,7 +23,7 @@ use super::Factor;
 use crate::memory::state::Visitor;
 use crate::memory::Memory;
 use forgetting_kernels::kernel::functions::{
-    add_scaled, dot, scale, symmetric_multiply, symmetric_subtract,
+    add_scaled, dot, symmetric_multiply, symmetric_subtract,
 };
 use forgetting_kernels::kernel::layout::FEW;
 use forgetting_kernels::kernel::symmetric::stride;
@@ -34,7 +34,11 @@ const LARGE: f64 = 4.0;
 /// From this many times n on all of A is.
 const TOO_LARGE: f64 = 8.0;
 
-/// A, with all its numbers; nothing where all of P is in U D Uᵀ.
+/// The numbers of A are multiplied out where their common factor is beyond this or its reciprocal.
+const FAR: f64 = 1e6;
+
+/// A, as its numbers over a common factor and that factor at the end, so that all of it is scaled in O(1);
+/// nothing where all of P is in U D Uᵀ.
 #[derive(Clone, Debug)]
 pub(super) struct Deferred<M: Memory>(M::Optional);
 
@@ -47,7 +51,9 @@ impl<M: Memory> Deferred<M> {
     /// A = 0, or nothing in a memory that has no room for it.
     fn zeros(memory: M) -> Self {
         let n = memory.parameters();
-        Self(memory.optional(n * stride::<M::Real>(n)))
+        let mut deferred = Self(memory.optional(n * stride::<M::Real>(n) + 1));
+        deferred.put_factor(M::Real::ONE);
+        deferred
     }
 
     #[inline(always)]
@@ -55,15 +61,39 @@ impl<M: Memory> Deferred<M> {
         self.0.as_ref().is_empty()
     }
 
-    /// The `n` numbers of row i.
+    /// What the numbers are to be multiplied with.
+    #[inline]
+    fn factor(&self) -> M::Real {
+        self.0.as_ref().last().copied().unwrap_or(M::Real::ONE)
+    }
+
+    fn put_factor(&mut self, factor: M::Real) {
+        if let Some(place) = self.0.as_mut().last_mut() {
+            *place = factor;
+        }
+    }
+
+    /// The numbers, row by row.
+    #[inline]
+    fn numbers(&self) -> &[M::Real] {
+        self.0.as_ref().split_last().map_or(&[], |(_, numbers)| numbers)
+    }
+
+    #[inline]
+    fn numbers_mut(&mut self) -> &mut [M::Real] {
+        self.0.as_mut().split_last_mut().map_or(&mut [], |(_, numbers)| numbers)
+    }
+
+    /// The `n` numbers of row i, over the factor.
     fn row(&self, i: usize, n: usize) -> &[M::Real] {
-        &self.0.as_ref()[i * stride::<M::Real>(n)..][..n]
+        &self.numbers()[i * stride::<M::Real>(n)..][..n]
     }
 
     /// The diagonal, of `n` elements; none where there is no A.
     #[inline]
     fn variances(&self, n: usize) -> impl Iterator<Item = M::Real> + '_ {
-        self.0.as_ref().iter().step_by(stride::<M::Real>(n) + 1).copied()
+        let factor = self.factor();
+        self.numbers().iter().step_by(stride::<M::Real>(n) + 1).map(move |&x| factor * x)
     }
 
     /// A_ii, 0 where there is no A.
@@ -84,15 +114,21 @@ impl<M: Memory> Deferred<M> {
     /// A ← c A
     #[inline]
     pub fn scale(&mut self, c: M::Real) {
-        if c != M::Real::ONE && !self.is_none() {
-            scale(self.0.as_mut(), c);
+        if self.is_none() {
+            return;
         }
+        let (factor, far) = (c * self.factor(), M::Real::from_f64(FAR));
+        if factor * far >= M::Real::ONE && factor <= far {
+            return self.put_factor(factor);
+        }
+        self.numbers_mut().iter_mut().for_each(|x| *x *= factor);
+        self.put_factor(M::Real::ONE);
     }
 
     /// A ← S A S with S = diag(`scale`).
     pub fn scale_each(&mut self, scale: &[M::Real]) {
         let stride = stride::<M::Real>(scale.len());
-        for (row, &s) in self.0.as_mut().chunks_exact_mut(stride).zip(scale) {
+        for (row, &s) in self.numbers_mut().chunks_exact_mut(stride).zip(scale) {
             row.iter_mut().zip(scale).for_each(|(x, &t)| *x *= s * t);
         }
     }
@@ -100,7 +136,10 @@ impl<M: Memory> Deferred<M> {
     /// `x` ← `x` + A·`f`
     pub fn add_product(&self, f: &[M::Real], x: &mut [M::Real]) {
         if !self.is_none() {
-            f.iter().enumerate().for_each(|(i, &f)| add_scaled(x, f, self.row(i, x.len())));
+            let (n, factor) = (f.len(), self.factor());
+            for (i, &f) in f.iter().enumerate() {
+                add_scaled(x, factor * f, self.row(i, n));
+            }
         }
     }
 
@@ -111,14 +150,14 @@ impl<M: Memory> Deferred<M> {
         }
         let n = f.len();
         let rows = (0..n).map(|i| f[i] * dot(self.row(i, n), f));
-        self.along(rows.fold(M::Real::ZERO, |sum, x| sum + x), f)
+        self.along(self.factor() * rows.fold(M::Real::ZERO, |sum, x| sum + x), f)
     }
 
     /// Adds c A to `n` x `n` numbers.
     pub fn add_to(&self, dense: &mut [M::Real], n: usize, c: M::Real) {
         if !self.is_none() {
             for (i, numbers) in dense.chunks_exact_mut(n).enumerate() {
-                add_scaled(numbers, c, self.row(i, n));
+                add_scaled(numbers, c * self.factor(), self.row(i, n));
             }
         }
     }
@@ -143,24 +182,29 @@ impl<M: Memory> Deferred<M> {
         if self.is_none() {
             return;
         }
-        let (matrix, stride) = (self.0.as_mut(), stride::<M::Real>(n));
+        let (matrix, stride) = (self.numbers_mut(), stride::<M::Real>(n));
         for i in 0..n {
             visitor.reals(&mut matrix[i * stride + i..i * stride + n]);
             for j in i + 1..n {
                 matrix[j * stride + i] = matrix[i * stride + j];
             }
         }
+        visitor.reals(self.0.as_mut().last_mut().map_or(&mut [], core::slice::from_mut));
     }
 
     /// Whether all elements are in range, and none on the diagonal negative.
     pub fn is_sound(&self, n: usize) -> bool {
-        self.variances(n).all(|x| x >= M::Real::ZERO)
-            && self.0.as_ref().iter().all(|x| x.abs() <= M::Real::CEILING)
+        let (factor, far) = (self.factor(), M::Real::from_f64(FAR));
+        let in_range = |x: M::Real| x.abs() <= M::Real::CEILING;
+        factor * far >= M::Real::ONE
+            && factor <= far
+            && self.variances(n).all(|x| x >= M::Real::ZERO)
+            && self.numbers().iter().all(|&x| in_range(x) && in_range(factor * x))
     }
 
     /// A_ij ← 0 and A_ji ← 0 for all j.
     fn clear(&mut self, i: usize, n: usize) {
-        let (matrix, stride) = (self.0.as_mut(), stride::<M::Real>(n));
+        let (matrix, stride) = (self.numbers_mut(), stride::<M::Real>(n));
         matrix[i * stride..(i + 1) * stride].fill(M::Real::ZERO);
         matrix.iter_mut().skip(i).step_by(stride).for_each(|x| *x = M::Real::ZERO);
     }
@@ -200,13 +244,14 @@ impl<M: Memory> Factor<M> {
         let (n, stride) = (self.parameters(), stride::<M::Real>(self.parameters()));
         let [large, too_large] =
             [LARGE, TOO_LARGE].map(|times| M::Real::from_f64(times * n as f64));
-        let (mut due, mut all) = (None, false);
-        for (i, row) in self.deferred.0.as_mut().chunks_exact_mut(stride).enumerate() {
+        let (factor, mut due, mut all) = (self.deferred.factor(), None, false);
+        for (i, row) in self.deferred.numbers_mut().chunks_exact_mut(stride).enumerate() {
             let added = q(i);
-            row[i] += added;
-            if row[i] > large * added {
+            row[i] += added / factor;
+            let sum = factor * row[i];
+            if sum > large * added {
                 due = due.or(Some(i));
-                all |= row[i] > too_large * added;
+                all |= sum > too_large * added;
             }
         }
         match due {
@@ -225,7 +270,9 @@ impl<M: Memory> Factor<M> {
     }
 
     fn expose_along(&mut self, f: &[M::Real], a: &mut [M::Real]) {
-        symmetric_multiply(self.deferred.0.as_ref(), f, a);
+        symmetric_multiply(self.deferred.numbers(), f, a);
+        let factor = self.deferred.factor();
+        a.iter_mut().for_each(|a| *a *= factor);
         let along = self.deferred.along(dot(f, a), f);
         if along > M::Real::ZERO {
             self.move_dyad(a, along);
@@ -234,9 +281,11 @@ impl<M: Memory> Factor<M> {
 
     /// The same along parameter i, of which A_ii > 0; uses n numbers `a`.
     fn settle_one(&mut self, i: usize, a: &mut [M::Real]) {
-        let n = self.parameters();
-        a.copy_from_slice(self.deferred.row(i, n));
-        self.move_dyad(a, self.deferred.row(i, n)[i]);
+        let (n, factor) = (self.parameters(), self.deferred.factor());
+        for (a, &x) in a.iter_mut().zip(self.deferred.row(i, n)) {
+            *a = factor * x;
+        }
+        self.move_dyad(a, a[i]);
         self.deferred.clear(i, n);
     }
 
@@ -249,7 +298,9 @@ impl<M: Memory> Factor<M> {
         for (a, variance) in a.iter_mut().zip(self.deferred.variances(n)) {
             *a = if *a * *a <= two * along * variance { *a / deviation } else { M::Real::ZERO };
         }
-        symmetric_subtract(self.deferred.0.as_mut(), a);
+        let factor = self.deferred.factor();
+        symmetric_subtract(self.deferred.numbers_mut(), factor, a);
+        self.deferred.put_factor(M::Real::ONE);
         let rounding = M::Real::EPSILON * M::Real::from_f64(n as f64);
         for (j, &a) in a.iter().enumerate() {
             if self.deferred.row(j, n)[j] < rounding * a * a {
@@ -270,7 +321,8 @@ impl<M: Memory> Factor<M> {
                 self.settle_one(i, work);
             }
         }
-        self.deferred.0.as_mut().fill(M::Real::ZERO);
+        self.deferred.numbers_mut().fill(M::Real::ZERO);
+        self.deferred.put_factor(M::Real::ONE);
     }
 
     /// Subtracts what is deferred from n x n numbers.

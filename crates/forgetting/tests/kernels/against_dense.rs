@@ -3,6 +3,7 @@
 #![allow(clippy::needless_range_loop, reason = "indices as in the equations")]
 
 use forgetting::Kernels;
+use forgetting_kernels::kernel::symmetric::stride;
 use forgetting_kernels::kernel::{functions, layout};
 
 /// The sizes: every one around the blocks of eight columns, and some larger.
@@ -107,7 +108,33 @@ pub fn check<T: Kernels>(n: usize, seed: u64) -> Vec<f64> {
     products::<T>(n, seed, &mut out);
     measurement::<T>(n, seed, &mut out);
     dyad::<T>(n, seed, &mut out);
+    symmetric::<T>(n, seed, &mut out);
     out
+}
+
+fn symmetric<T: Kernels>(n: usize, seed: u64, out: &mut Vec<f64>) {
+    let (p, x) = (Case::<T>::new(n, seed).p(), Case::<T>::new(n, seed).x);
+    let stride = stride::<T>(n);
+    let mut matrix = vec![T::ZERO; n * stride];
+    for (i, j) in (0..n * n).map(|k| (k / n, k % n)) {
+        matrix[i * stride + j] = T::from_f64(p[i.min(j)][i.max(j)]);
+    }
+    let read = |matrix: &[T]| -> Vec<Vec<f64>> {
+        matrix.chunks(stride).map(|row| doubles(&row[..n])).collect()
+    };
+    let (before, mut product) = (read(&matrix), vec![T::ZERO; n]);
+    functions::symmetric_multiply(&matrix, &x, &mut product);
+    close::<T>("A x", n, &doubles(&product), &times(&before, &doubles(&x)));
+    functions::symmetric_subtract(&mut matrix, T::from_f64(0.75), &x);
+    let (after, x) = (read(&matrix), doubles(&x));
+    for i in 0..n {
+        let expected: Vec<f64> = (0..n).map(|j| 0.75 * before[i][j] - x[i] * x[j]).collect();
+        close::<T>("0.75 A − x xᵀ", n, &after[i], &expected);
+        assert!((0..n).all(|j| after[i][j] == after[j][i]), "{n}");
+    }
+    assert!(matrix.chunks(stride).all(|row| row[n..].iter().all(|&x| x == T::ZERO)), "{n}");
+    out.extend(doubles(&product));
+    out.extend(after.concat());
 }
 
 fn products<T: Kernels>(n: usize, seed: u64, out: &mut Vec<f64>) {
