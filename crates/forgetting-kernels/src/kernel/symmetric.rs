@@ -12,6 +12,12 @@ pub const fn stride<T: Real>(n: usize) -> usize {
     n.next_multiple_of(T::ROWS)
 }
 
+/// The numbers of the matrix and one more, of any number type.
+#[inline(always)]
+pub const fn most(n: usize) -> usize {
+    n * n.next_multiple_of(16) + 1
+}
+
 /// `product` ← A·`x`. O(n²).
 pub struct SymmetricMultiply<'a, T> {
     /// A

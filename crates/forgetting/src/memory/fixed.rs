@@ -1,10 +1,11 @@
 //! Numbers on the stack, of sizes known to the compiler.
 
-use super::{Buffer, Memory};
+use super::{Buffer, Memory, Part};
 use crate::error::Error;
 use core::marker::PhantomData;
 use forgetting_kernels::kernel::compact::triangle;
-use forgetting_kernels::kernel::layout::{most, set_identity};
+use forgetting_kernels::kernel::layout::{most, set_identity, FEW};
+use forgetting_kernels::kernel::symmetric::most as most_symmetric;
 use forgetting_kernels::kernel::scratch;
 use forgetting_kernels::{Kernels, Real};
 
@@ -41,17 +42,31 @@ pub trait Packed<T> {
     type Scratch: Buffer<T>;
     /// the numbers of U above its diagonal
     type Compact: Buffer<T>;
+    /// [`symmetric::most`](forgetting_kernels::kernel::symmetric::most) of n numbers where n is more than
+    /// [`FEW`], else none
+    type Symmetric: Buffer<T>;
     /// U = I
     fn triangle() -> Self::Triangle;
     /// Zeros.
     fn scratch() -> Self::Scratch;
     /// Zeros: U = I.
     fn compact() -> Self::Compact;
+    /// Zeros.
+    fn symmetric() -> Self::Symmetric;
 }
 
 /// The size `N` as a type.
 #[derive(Clone, Copy, Debug)]
 pub struct Size<const N: usize>;
+
+/// How many numbers a symmetric matrix beside P takes.
+const fn symmetric(n: usize) -> usize {
+    if n > FEW {
+        most_symmetric(n)
+    } else {
+        0
+    }
+}
 
 macro_rules! packed {
     ($($n:literal)*) => {$(
@@ -59,6 +74,7 @@ macro_rules! packed {
             type Triangle = [T; most($n)];
             type Scratch = [T; scratch($n)];
             type Compact = [T; triangle($n)];
+            type Symmetric = [T; symmetric($n)];
             fn triangle() -> Self::Triangle {
                 let mut triangle = [T::ZERO; most($n)];
                 set_identity(&mut triangle, $n);
@@ -69,6 +85,9 @@ macro_rules! packed {
             }
             fn compact() -> Self::Compact {
                 [T::ZERO; triangle($n)]
+            }
+            fn symmetric() -> Self::Symmetric {
+                [T::ZERO; symmetric($n)]
             }
         }
     )*};
@@ -105,7 +124,7 @@ where
     type Parameters = Grid<T, N, M>;
     type Scratch = <Size<N> as Packed<T>>::Scratch;
     type List = [T; L];
-    type Optional = [T; 0];
+    type Optional = Part<<Size<N> as Packed<T>>::Symmetric>;
 
     #[inline(always)]
     fn parameters(&self) -> usize {
@@ -152,8 +171,8 @@ where
     fn list(&self, _: usize) -> [T; L] {
         [T::ZERO; L]
     }
-    fn optional(&self, _: usize) -> [T; 0] {
-        []
+    fn optional(&self, length: usize) -> Self::Optional {
+        Part::new(Size::<N>::symmetric(), length)
     }
     fn longest_list(&self) -> usize {
         L

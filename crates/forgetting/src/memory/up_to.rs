@@ -57,7 +57,7 @@ impl<T, B: AsMut<[T]>> AsMut<[T]> for Part<B> {
 
 impl<B> Part<B> {
     /// Of `buffer`, as many as the `length` that the sizes ask for.
-    fn new<T>(buffer: B, length: usize) -> Self
+    pub(super) fn new<T>(buffer: B, length: usize) -> Self
     where
         B: Buffer<T>,
     {
@@ -79,7 +79,7 @@ where
     type Parameters = Part<[T; N]>;
     type Scratch = Part<<Size<N> as Packed<T>>::Scratch>;
     type List = Part<[T; L]>;
-    type Optional = [T; 0];
+    type Optional = Part<<Size<N> as Packed<T>>::Symmetric>;
 
     #[inline(always)]
     fn parameters(&self) -> usize {
@@ -127,8 +127,8 @@ where
     fn list(&self, length: usize) -> Self::List {
         Part::new([T::ZERO; L], length.min(L))
     }
-    fn optional(&self, _: usize) -> [T; 0] {
-        []
+    fn optional(&self, length: usize) -> Self::Optional {
+        Part::new(Size::<N>::symmetric(), length)
     }
     fn longest_list(&self) -> usize {
         L
