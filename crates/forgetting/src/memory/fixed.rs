@@ -5,8 +5,8 @@ use crate::error::Error;
 use core::marker::PhantomData;
 use forgetting_kernels::kernel::compact::triangle;
 use forgetting_kernels::kernel::layout::{most, set_identity, FEW};
-use forgetting_kernels::kernel::symmetric::most as most_symmetric;
 use forgetting_kernels::kernel::scratch;
+use forgetting_kernels::kernel::symmetric::most as most_symmetric;
 use forgetting_kernels::{Kernels, Real};
 
 /// `B` blocks of `A` numbers on the stack.
