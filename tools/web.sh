@@ -13,7 +13,7 @@ TARGET=wasm32-unknown-unknown
 OUT=build/web
 MODULE=$OUT/module
 FEATURES="--enable-bulk-memory --enable-bulk-memory-opt --enable-sign-ext --enable-nontrapping-float-to-int --enable-mutable-globals --enable-reference-types --enable-multivalue --enable-simd --enable-call-indirect-overlong" # what the compiler uses
-MOST=190000 # bytes of the module, compressed: a change that adds much to it is seen
+MOST=195000 # bytes of the module, compressed: a change that adds much to it is seen
 
 has() { command -v "$1" >/dev/null; }
 has_source() { [ -f "$(rustc --print sysroot)/lib/rustlib/src/rust/library/Cargo.lock" ] && has_linker; }
