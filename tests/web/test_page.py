@@ -155,6 +155,11 @@ def test_the_address_can_ask_for_a_rule_or_the_story_alone(browser):
     assert asked.ask("playground.story.runners.map((each) => each.name)[1]") == "data_dependent"
     assert not asked.page.is_visible("#record") and asked.page.is_visible("#story")
     asked.page.close()
+    # the rule that is shown by default beside another is not shown twice
+    asked = Playground(browser, asked="#only=windup&rule=random_walk")
+    names = asked.ask("playground.story.runners.map((each) => each.name)")
+    assert len(set(names)) == len(names) == 3
+    asked.page.close()
 
 
 def test_a_long_record_is_taken(playground, tmp_path):

@@ -95,7 +95,8 @@ export class Story {
   constructor(asked) {
     const words = [{ value: "auto", words: "the bank" }, ...rules().map((entry) => ({ value: entry.name }))];
     const first = rules().some((entry) => entry.name === asked) ? asked : "subspace";
-    this.others = [select(words, first), select(words, "random_walk")];
+    const second = first === "random_walk" ? "subspace" : "random_walk";
+    this.others = [select(words, first), select(words, second)];
     this.factor = element("input", { type: "range", min: "200", max: "800", value: String(toSlider(FACTOR)), id: "story-factor" });
     this.isOn = true;
     this.isRunning = false;
