@@ -1046,18 +1046,22 @@ class Mlpol(Mixer):
     r_i = 2 e (e − e_i)                    how much following member i more would have helped
     R_i ← R_i + r_i                        regret of not having followed it
     B⁺ = max(B_i, r_i²),  S_i ← S_i + r_i² + B⁺ − B_i,  B_i ← B⁺
-    w_i ∝ max(R_i, 0)/S_i                  all alike while no regret is positive
+    w_i ∝ π_i max(R_i, 0)/S_i              w_i ∝ π_i while no regret is positive
+    π_i = q^i                              the weights beforehand, i = 0 for the first member
     ```
 
     | symbol | name | range | default |
     |---|---|---|---|
+    | q | prior_ratio | (0, 1] | 1; 0.94 for the default members of a bank |
 
     e is the error of the mixture and e_i that of member i; for several rows and targets the products
     are sums over them.
 
-    - After T samples the squared error of the mixture exceeds that of the best fixed convex
-      combination of the K members by at most the root of K (1 + ln T) times the largest S_i, whatever
-      the samples are.
+    - After T samples the sum of squared errors of the mixture exceeds that of member i by at most the
+      root of (1 + ln T) S_i Σπ/π_i, whatever the samples are; with q = 1 the same with K max S_i holds for
+      every fixed convex combination of the K members.
+    - Weights beforehand are for members in an order. The slowest of those that are there by default
+      comes first: where nothing changes, members that forget more than need be are given up sooner.
     - It has no unit: errors are taken in units of the largest so far.
     - A member that has always been worse than the mixture has weight 0, and costs nothing.
     - Cost: O(K p m). State: 3 K + 1 numbers.
@@ -1071,7 +1075,10 @@ class Mlpol(Mixer):
 
     about: ClassVar[Mapping[str, Any]]
     name: ClassVar[str]
-    def __init__(self) -> None: ...
+    def __init__(
+        self,
+        prior_ratio: float = 1.0,
+    ) -> None: ...
 
 class Multiple(Rule):
     """Forgets parameters, or blocks of them, each at its own rate, and keeps no information between blocks.

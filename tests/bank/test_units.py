@@ -225,11 +225,11 @@ def test_units_of_several_outputs_change_no_prediction_of_a_bank(mixer):
     )
 
 
-@pytest.mark.parametrize(("size", "most"), [(30.0, 1.5), (1000.0, 2.0)])
-def test_a_weighting_keeps_gross_errors_from_choosing_the_members(size, most):
+@pytest.mark.parametrize("size", [30.0, 1000.0])
+def test_a_weighting_keeps_gross_errors_from_choosing_the_members(size):
     """One sample of twenty is wrong, by so many standard deviations."""
     off: dict[str, list[float]] = {}
-    for seed in range(5):
+    for seed in range(8):
         random = np.random.default_rng(seed)
         phi = random.normal(size=(3000, 3))
         theta = np.cumsum(0.03 * random.normal(size=(3000, 3)), axis=0)
@@ -244,4 +244,5 @@ def test_a_weighting_keeps_gross_errors_from_choosing_the_members(size, most):
             error = np.linalg.norm(1e3 * run.theta[500:] - theta[500:], axis=1)
             off.setdefault(name, []).append(float(np.median(error)))
     for name in ("huber", "student_t"):
-        assert np.mean(off[name]) < most * np.mean(off["clean"])
+        assert np.max(off[name]) < 1.7 * np.mean(off["clean"])
+        assert np.mean(off[name]) < 1.5 * np.mean(off["clean"])

@@ -1,7 +1,7 @@
 //! The compact bank against the default bank on the heap: the same bits after every sample, and the same
 //! bytes when saved.
 
-use forgetting::bank::{default_members, Bank};
+use forgetting::bank::{default_members, default_mixer, Bank};
 use forgetting::choice::Defaults;
 use forgetting::compact::{self, MEMBERS};
 use forgetting::mixers::AnyMixer;
@@ -48,7 +48,7 @@ fn mixer<T: Kernels>(name: &str, count: usize) -> AnyMixer<Dynamic<T>> {
 
 fn default<T: Kernels>(n: usize) -> Bank<T> {
     let members = default_members(Dynamic::new(n, 1, 1).unwrap()).unwrap();
-    Bank::of_data(members, mixer("mlpol", MEMBERS)).unwrap()
+    Bank::of_data(members, default_mixer().unwrap()).unwrap()
 }
 
 fn bytes<T: Kernels, const N: usize>(bank: &mut compact::Bank<T, N>) -> Vec<u8>
@@ -140,7 +140,7 @@ fn walks<T: Kernels>(variance: T, theta: &[T]) -> Vec<AnyEstimator<T>> {
 fn a_prior_can_be_given() {
     let theta = [1.0, -2.0, 0.5];
     let own = compact::Bank::<f64, 3>::of_walks(Some(50.0), &theta).unwrap();
-    same(own, Bank::new(walks(50.0, &theta), mixer("mlpol", MEMBERS)).unwrap());
+    same(own, Bank::new(walks(50.0, &theta), default_mixer().unwrap()).unwrap());
     for (variance, theta, named) in [
         (Some(-1.0), [0.0; 2], "initial_covariance"),
         (Some(f64::NAN), [0.0; 2], "initial_covariance"),
@@ -183,7 +183,7 @@ fn what_is_refused_changes_nothing() {
 #[test]
 fn the_same_members_sleep() {
     let mut own = compact::Bank::<f32, 2>::of_walks(Some(1e-3), &[0.0; 2]).unwrap();
-    let mut whole = Bank::new(walks(1e-3, &[0.0; 2]), mixer("mlpol", MEMBERS)).unwrap();
+    let mut whole = Bank::new(walks(1e-3, &[0.0; 2]), default_mixer().unwrap()).unwrap();
     let (mut numbers, mut asleep) = (Numbers(5), 0);
     // the fast walks then predict what is beyond the range
     let first = [([1.0, 0.0], 1e15), ([1e5, 0.0], 0.0)];

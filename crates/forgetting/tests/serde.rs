@@ -1,8 +1,7 @@
 //! The feature `serde`: what is written by any of its formats goes on bit for bit when it is read.
 
-use forgetting::bank::{default_members, Bank};
+use forgetting::bank::{default_members, default_mixer, Bank};
 use forgetting::choice::Defaults;
-use forgetting::mixers::AnyMixer;
 use forgetting::models::{InputOrders, Method, Orders, Polynomial};
 use forgetting::rates::{AnyRate, Constant};
 use forgetting::rules::Rule;
@@ -25,9 +24,7 @@ fn estimator<M: Memory<Real = f64>>(memory: M) -> Named<M> {
 
 fn bank() -> Bank<f64> {
     let members = default_members(Dynamic::new(2, 1, 1).unwrap()).unwrap();
-    let of_members = Dynamic::new(members.len(), 1, 1).unwrap();
-    let mixer = AnyMixer::named("mlpol", &Defaults, of_members).unwrap();
-    let mut bank = Bank::of_data(members, mixer).unwrap();
+    let mut bank = Bank::of_data(members, default_mixer().unwrap()).unwrap();
     for k in 0..20 {
         let phi = [1.0, f64::from(k % 7)];
         bank.update(&phi, &[3.0 + 0.5 * phi[1]], Noise::Unit).unwrap();

@@ -7,9 +7,7 @@ mod record;
 #[path = "conformance/subjects.rs"]
 mod subjects;
 
-use forgetting::bank::{default_members, Bank, BankOutcome, Kept};
-use forgetting::choice::Defaults;
-use forgetting::mixers::AnyMixer;
+use forgetting::bank::{default_members, default_mixer, Bank, BankOutcome, Kept};
 use forgetting::rates::AnyRate;
 use forgetting::rules::{RandomWalk, Rule};
 use forgetting::weightings::{AnyWeighting, Equal};
@@ -181,8 +179,7 @@ fn default_estimator<T: Kernels>() -> AnyEstimator<T> {
 
 fn default_bank<T: Kernels>() -> Bank<T> {
     let members = default_members(Dynamic::new(N, 1, 1).unwrap()).unwrap();
-    let mixer = AnyMixer::named("mlpol", &Defaults, Dynamic::new(members.len(), 1, 1).unwrap());
-    Bank::of_data(members, mixer.unwrap()).unwrap()
+    Bank::of_data(members, default_mixer().unwrap()).unwrap()
 }
 
 #[test]

@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::function::for_rule;
 use crate::number::{Number, NumberType, Numbers, View};
 use crate::settings::{ForgettingFactor, Settings};
-use forgetting::bank::{default_members, Bank};
+use forgetting::bank::{default_members, Bank, DEFAULT_PRIOR_RATIO};
 use forgetting::mixers::{AnyMixer, MIXERS};
 use forgetting::{AnyEstimator, Dynamic, DIFFUSE};
 
@@ -28,7 +28,7 @@ pub struct BankSettings<'a> {
     pub common: Settings<'a>,
     /// the members; [`forgetting::bank::default_members`] if not given
     pub members: Option<Vec<Member>>,
-    /// what mixes them; `mlpol` if not given
+    /// what mixes them; `mlpol` if not given, with [`DEFAULT_PRIOR_RATIO`] for default members
     pub mixer: Option<Choice>,
 }
 
@@ -44,6 +44,7 @@ pub(crate) fn bank<T: Number>(settings: &BankSettings<'_>) -> Result<Bank<T>, Er
             "initial_theta goes with initial_covariance: it says how far to trust it",
         ));
     }
+    let of_walks = members.is_none();
     let members = match members {
         Some(members) => named::<T>(common, members)?,
         None => defaults::<T>(common)?,
@@ -53,8 +54,10 @@ pub(crate) fn bank<T: Number>(settings: &BankSettings<'_>) -> Result<Bank<T>, Er
             "a bank takes no function of yours: it would be called for each member and sample",
         ));
     }
-    let mlpol = Choice::named("mlpol");
-    let mixer = mixer.as_ref().unwrap_or(&mlpol);
+    let mut mixer = mixer.clone().unwrap_or_else(|| Choice::named("mlpol"));
+    if of_walks && mixer.name == "mlpol" && mixer.get("prior_ratio").is_none() {
+        mixer = mixer.with("prior_ratio", DEFAULT_PRIOR_RATIO);
+    }
     let of_members = Dynamic::new(members.len().max(1), 1, 1)?;
     let mixer = mixer.make(("mixer", MIXERS), for_rule, |name, values| {
         AnyMixer::named(name, values, of_members)

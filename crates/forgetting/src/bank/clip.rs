@@ -1,7 +1,7 @@
 //! Gross errors, as the mixer is shown them where the members of a bank are weighted.
 
 use super::members::Members;
-use super::mixture::Mixture;
+use super::mixture::{in_deviations, Mixture};
 use crate::memory::state::{State, Visitor};
 use crate::sample::NoiseVariance;
 use forgetting_kernels::{Kernels, Real};
@@ -22,16 +22,18 @@ impl<T: Kernels, G: Members<Real = T>> Clip<G> {
 
     /// Clips the whitened errors of all members at three standard deviations of the mixture's. One gross
     /// error must not decide which member is believed from then on. The mixture of the clipped errors
-    /// takes the place of its own error, `mixed`.
+    /// takes the place of its own error, `mixed`. Returns whether it is known what is gross: until then
+    /// the mixer is better told nothing.
     pub fn clip(
         &mut self,
         mixture: &Mixture<G>,
         (errors, mixed): (&mut [T], &mut [T]),
         awake: &[bool],
         parameters: usize,
-    ) {
+    ) -> bool {
         let usual = self.0.as_mut();
         let (targets, width) = (usual.len(), mixed.len());
+        let mut all_known = true;
         for (t, usual) in usual.iter_mut().enumerate() {
             let own = (t..width).step_by(targets);
             let squared = own.clone().fold(T::ZERO, |sum, j| sum + mixed[j] * mixed[j]);
@@ -43,11 +45,26 @@ impl<T: Kernels, G: Members<Real = T>> Clip<G> {
                     }
                     mixed[j] = mixture.mean_of(errors.iter().skip(j).step_by(width), awake);
                 }
+            } else {
+                all_known = false;
             }
             if NoiseVariance::<T>::is_settled(mixture.samples(), parameters) {
                 let rows = width / targets;
                 usual.learn(squared / T::from_f64(rows as f64), rows, T::ZERO);
             }
+        }
+        all_known
+    }
+
+    /// Errors in units of what is usual now, as far as members are weighted. Before θ is known, what is
+    /// usual is large: what a member gained or lost then would otherwise decide for ever.
+    pub fn in_usual_units(&self, mixture: &Mixture<G>, errors: &mut [T], mixed: &mut [T]) {
+        let usual = self.0.as_ref();
+        if usual.is_empty() {
+            in_deviations(mixture.target_variances().iter().copied(), errors, mixed);
+        } else {
+            let variances = usual.iter().map(|usual| usual.known().unwrap_or_default());
+            in_deviations(variances, errors, mixed);
         }
     }
 }

@@ -6,6 +6,7 @@ use {
     crate::error::Error,
     crate::estimator::{AnyEstimator, Estimator},
     crate::memory::Dynamic,
+    crate::mixers::{mlpol::Mlpol, AnyMixer},
     crate::rates::{AnyRate, Constant},
     crate::rules::{RandomWalk, Rule},
     crate::weightings::{AnyWeighting, Equal},
@@ -17,6 +18,21 @@ use {
 /// such that each sample is nearly all that counts. On open records eight members a hundredfold apart
 /// predict as well as sixteen tenfold apart.
 pub const DEFAULT_NOISE: [f64; 8] = [1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4];
+
+/// The weight beforehand of each default member over that of the next slower one. Where nothing changes the
+/// slow members are so alike that it takes long to give up the faster ones of them; with this they start
+/// behind. A smaller one costs more where parameters jump than it gains where they rest.
+pub const DEFAULT_PRIOR_RATIO: f64 = 0.94;
+
+/// What mixes the default members: [`mlpol`](crate::mixers::mlpol) with [`DEFAULT_PRIOR_RATIO`].
+///
+/// # Errors
+/// Those of the sizes; none for as many members as there are by default.
+#[cfg(feature = "alloc")]
+pub fn default_mixer<T: Kernels>() -> Result<AnyMixer<Dynamic<T>>, Error> {
+    let memory = Dynamic::new(DEFAULT_NOISE.len(), 1, 1)?;
+    Ok(AnyMixer::Mlpol(Mlpol::new(T::from_f64(DEFAULT_PRIOR_RATIO), memory)?))
+}
 
 /// Random walks of all speeds, none of which can wind up: P stays below that of the prior.
 ///

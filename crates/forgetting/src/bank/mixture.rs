@@ -26,18 +26,19 @@ pub(super) struct Mixture<G: Members> {
 }
 
 impl<T: Kernels, G: Members<Real = T>> Mixture<G> {
-    /// All alike.
-    pub fn new(members: &G) -> Self {
-        let (memory, mut weights) = (members.memory(), members.numbers(1));
-        weights.as_mut().fill(T::ONE / T::from_f64(members.count() as f64));
+    /// Before the first sample; `weigh` writes how far each member is believed beforehand.
+    pub fn new(members: &G, weigh: impl FnOnce(&mut [T])) -> Self {
+        let memory = members.memory();
         let targets = memory.targets();
-        Self {
-            weights,
+        let mut mixture = Self {
+            weights: members.numbers(1),
             parts: members.numbers(1),
             noise_variance: T::ZERO,
             target_variances: memory.list(if targets > 1 { targets } else { 0 }),
             samples: 0,
-        }
+        };
+        mixture.weigh(weigh);
+        mixture
     }
 
     #[inline]
@@ -171,20 +172,9 @@ impl<T: Kernels, G: Members<Real = T>> Mixture<G> {
         self.target_variances.as_ref().get(t).copied().unwrap_or(self.noise_variance)
     }
 
-    /// The errors of several targets, each over the standard deviation of its noise so far: members are
-    /// weighed by all of them alike, whatever their units.
-    pub fn in_deviations(&self, errors: &mut [T], mixed: &mut [T]) {
-        let variances = self.target_variances.as_ref();
-        let targets = variances.len();
-        for (t, &variance) in variances.iter().enumerate() {
-            let deviation = variance.sqrt();
-            // without an error so far all errors of the target are 0
-            let scale = if deviation > T::ZERO { T::ONE / deviation } else { T::ZERO };
-            for e in errors.iter_mut().skip(t).step_by(targets) {
-                *e *= scale;
-            }
-            mixed.iter_mut().skip(t).step_by(targets).for_each(|e| *e *= scale);
-        }
+    /// The noise variance so far of each target, where there are several.
+    pub fn target_variances(&self) -> &[T] {
+        self.target_variances.as_ref()
     }
 
     /// Takes the weights that `write` writes, in proportion.
@@ -224,6 +214,24 @@ fn weigh_out_of_range<T: Real>(weights: &mut [T]) {
     } else {
         let equal = T::ONE / T::from_f64(weights.len() as f64);
         weights.fill(equal);
+    }
+}
+
+/// Errors, each over the standard deviation of its target's noise: members are weighed by all targets
+/// alike, whatever their units. Without `variances` they stay as they are.
+pub(super) fn in_deviations<T: Real>(
+    variances: impl ExactSizeIterator<Item = T>,
+    errors: &mut [T],
+    mixed: &mut [T],
+) {
+    let targets = variances.len();
+    for (t, variance) in variances.enumerate() {
+        let deviation = variance.sqrt();
+        // without an error so far all errors of the target are 0
+        let scale = if deviation > T::ZERO { T::ONE / deviation } else { T::ZERO };
+        for errors in [&mut *errors, &mut *mixed] {
+            errors.iter_mut().skip(t).step_by(targets).for_each(|e| *e *= scale);
+        }
     }
 }
 

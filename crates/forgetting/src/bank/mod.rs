@@ -7,7 +7,7 @@
 //! ```
 //!
 //! The weights w are those of a mixer ([`crate::mixers`]), which learns from the errors of the members.
-//! For the first 3n samples, in which each member still learns what θ is, all are believed alike.
+//! For the first 3n samples, in which each member still learns what θ is, each is believed as far as beforehand.
 //! A member that cannot take a sample sleeps: it has no part in that prediction, and stays as it was.
 //!
 //! A bank of one is that estimator, bit for bit.
@@ -27,8 +27,8 @@ mod together;
 mod whiten;
 
 #[cfg(feature = "alloc")]
-pub use defaults::default_members;
-pub use defaults::DEFAULT_NOISE;
+pub use defaults::{default_members, default_mixer};
+pub use defaults::{DEFAULT_NOISE, DEFAULT_PRIOR_RATIO};
 #[cfg(feature = "alloc")]
 pub use many::{BankOutcome, Kept};
 pub(crate) use members::{mix, Brought, Member, Members};
@@ -54,15 +54,11 @@ const BATCH: usize = 32;
 /// Estimators of any kind and of the same sizes, and what mixes them.
 ///
 /// ```
-/// use forgetting::bank::{default_members, Bank};
-/// use forgetting::choice::Defaults;
-/// use forgetting::mixers::AnyMixer;
+/// use forgetting::bank::{default_members, default_mixer, Bank};
 /// use forgetting::{Dynamic, Noise};
 ///
 /// let memory = Dynamic::<f64>::new(2, 1, 1)?;
-/// let members = default_members(memory)?;
-/// let mixer = AnyMixer::named("mlpol", &Defaults, Dynamic::new(members.len(), 1, 1)?)?;
-/// let mut bank = Bank::of_data(members, mixer)?;
+/// let mut bank = Bank::of_data(default_members(memory)?, default_mixer()?)?;
 /// for k in 0..100 {
 ///     let phi = [1.0, f64::from(k % 7)];
 ///     bank.update(&phi, &[3.0 + 0.5 * phi[1]], Noise::Unit)?;
@@ -188,9 +184,10 @@ impl<T: Kernels, G: Members<Real = T>, X: Mixer<G::Weighed>> Mixed<G, X> {
             theta: memory.theta(),
             root: memory.noise(),
         };
+        let learned = mixer.start(members.weighed());
         let state = BankState {
-            mixer: mixer.start(members.weighed()),
-            mixture: Mixture::new(&members),
+            mixture: Mixture::new(&members, |weights| mixer.weigh(&learned, weights)),
+            mixer: learned,
             clip: Clip::new(&members, memory.targets()),
             units: follows_data.then(|| Units::new(memory)),
             members,
@@ -206,7 +203,7 @@ impl<T: Kernels, G: Members<Real = T>, X: Mixer<G::Weighed>> Mixed<G, X> {
         let BankState { members, .. } = state;
         members.each().iter_mut().for_each(Member::reset);
         state.mixer = mixer.start(members.weighed());
-        state.mixture = Mixture::new(members);
+        state.mixture = Mixture::new(members, |weights| mixer.weigh(&state.mixer, weights));
         state.clip = Clip::new(members, memory.targets());
         state.units = follows_data.then(|| Units::new(*memory));
         self.express();

@@ -146,15 +146,16 @@ impl<T: Kernels, G: Members<Real = T>, X: Mixer<G::Weighed>> Mixed<G, X> {
     fn learn(&mut self, leverage: Option<T>) {
         let Self { mixer, memory, state, buffers, .. } = self;
         let BankState { mixture, clip, mixer: remembered, .. } = state;
+        let mut used = false;
         if let Some(leverage) = leverage {
             let Buffers { whitened, mixed, awake, .. } = buffers;
             let numbers = (whitened.as_mut(), mixed.as_mut());
-            clip.clip(mixture, numbers, awake.as_ref(), memory.parameters());
+            used = clip.clip(mixture, numbers, awake.as_ref(), memory.parameters());
             mixture.note(&buffers.forecasts(), leverage);
             let Buffers { whitened, mixed, .. } = buffers;
-            mixture.in_deviations(whitened.as_mut(), mixed.as_mut());
+            clip.in_usual_units(mixture, whitened.as_mut(), mixed.as_mut());
         }
-        let used = leverage.is_some().then(|| buffers.forecasts());
+        let used = used.then(|| buffers.forecasts());
         mixture.learn((mixer, remembered), memory.parameters(), used.as_ref());
     }
 

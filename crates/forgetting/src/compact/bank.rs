@@ -5,12 +5,13 @@
 //! give the same bits.
 
 use super::{Compact, Walk};
-use crate::bank::{mix, BankUpdate, Member, Members, Mixed, DEFAULT_NOISE};
+use crate::bank::{mix, BankUpdate, Member, Members, Mixed, DEFAULT_NOISE, DEFAULT_PRIOR_RATIO};
 use crate::covariance::DIFFUSE;
 use crate::error::Error;
 use crate::memory::state::Visitor;
 use crate::memory::{Fixed, Packed, Size};
 use crate::mixers::mlpol::Mlpol;
+use crate::mixers::Mixer;
 use crate::rates::Constant;
 use crate::rules::Forgetting;
 use crate::sample::{Noise, NoiseVariance};
@@ -79,7 +80,8 @@ where
         }
         let variance = initial_covariance.unwrap_or(T::from_f64(DIFFUSE));
         let walks = Walks::new(variance, initial_theta)?;
-        Ok(Self::of_members(walks, Mlpol::new(), follows_data))
+        let mixer = Mlpol::new(T::from_f64(DEFAULT_PRIOR_RATIO), walks.weighed())?;
+        Ok(Self::of_members(walks, mixer, follows_data))
     }
 
     /// Takes the sample of n numbers `phi` and the number `y`.
@@ -121,9 +123,9 @@ where
     /// [`Error::State`] says what is wrong with the bytes, or that they are not those of random walks of
     /// `N` parameters mixed by `mlpol`.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
-        Self::read(bytes, |name, _, _| {
+        Self::read(bytes, |name, parameters, members| {
             if name == MIXER {
-                return Ok(Mlpol::new());
+                return Mlpol::configure(parameters, members);
             }
             Err(Error::State { reason: "its mixer is not mlpol" })
         })

@@ -4,18 +4,22 @@
 //! r_i = 2 e (e − e_i)                    how much following member i more would have helped
 //! R_i ← R_i + r_i                        regret of not having followed it
 //! B⁺ = max(B_i, r_i²),  S_i ← S_i + r_i² + B⁺ − B_i,  B_i ← B⁺
-//! w_i ∝ max(R_i, 0)/S_i                  all alike while no regret is positive
+//! w_i ∝ π_i max(R_i, 0)/S_i              w_i ∝ π_i while no regret is positive
+//! π_i = q^i                              the weights beforehand, i = 0 for the first member
 //! ```
 //!
 //! | symbol | name | range | default |
 //! |---|---|---|---|
+//! | q | prior_ratio | (0, 1] | 1; 0.94 for the default members of a bank |
 //!
 //! e is the error of the mixture and e_i that of member i; for several rows and targets the products
 //! are sums over them.
 //!
-//! - After T samples the squared error of the mixture exceeds that of the best fixed convex
-//!   combination of the K members by at most the root of K (1 + ln T) times the largest S_i, whatever
-//!   the samples are.
+//! - After T samples the sum of squared errors of the mixture exceeds that of member i by at most the
+//!   root of (1 + ln T) S_i Σπ/π_i, whatever the samples are; with q = 1 the same with K max S_i holds for
+//!   every fixed convex combination of the K members.
+//! - Weights beforehand are for members in an order. The slowest of those that are there by default
+//!   comes first: where nothing changes, members that forget more than need be are given up sooner.
 //! - It has no unit: errors are taken in units of the largest so far.
 //! - A member that has always been worse than the mixture has weight 0, and costs nothing.
 //! - Cost: O(K p m). State: 3 K + 1 numbers.
@@ -27,19 +31,29 @@
 //! Proceedings of the 27th Conference on Learning Theory, 2014 (ML-Poly).
 
 use super::{Forecasts, Mixer};
-use crate::choice::{About, Value, Values};
+use crate::choice::{About, Parameter, Range, Value, Values};
 use crate::error::Error;
 use crate::memory::state::{is_finite, State, Visitor};
 use crate::memory::Memory;
-use core::marker::PhantomData;
 use forgetting_kernels::Real;
 
+const PRIOR_RATIO: Parameter = Parameter::real(
+    "prior_ratio",
+    1.0,
+    Range::FRACTION,
+    "weight beforehand of each member over that of the one before it: 1 for all alike",
+);
+
 /// The registry entry.
-pub const ABOUT: About = About::new(&[]);
+pub const ABOUT: About = About::new(&[PRIOR_RATIO]);
 
 /// Polynomially weighted averages with a learning rate a member; see [`self`](crate::mixers::mlpol).
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Mlpol<M>(PhantomData<M>);
+#[derive(Clone, Debug)]
+pub struct Mlpol<M: Memory> {
+    prior_ratio: M::Real,
+    /// π
+    priors: M::Vector,
+}
 
 /// What each member has been worth.
 #[derive(Clone, Debug)]
@@ -54,21 +68,33 @@ pub struct Regrets<M: Memory> {
     unit: M::Real,
 }
 
-impl<M> Mlpol<M> {
-    /// The mixer.
-    pub fn new() -> Self {
-        Self(PhantomData)
+impl<M: Memory> Mlpol<M> {
+    /// With the ratio q of the weights beforehand, for the members that `memory` counts.
+    ///
+    /// # Errors
+    /// [`Error::Value`] unless `prior_ratio` is in (0, 1].
+    pub fn new(prior_ratio: M::Real, memory: M) -> Result<Self, Error> {
+        let prior_ratio = PRIOR_RATIO.check(prior_ratio)?;
+        let mut priors = memory.vector();
+        let mut next = M::Real::ONE;
+        for prior in priors.as_mut() {
+            *prior = next;
+            next *= prior_ratio;
+        }
+        Ok(Self { prior_ratio, priors })
     }
 }
 
 impl<M: Memory> Mixer<M> for Mlpol<M> {
     type State = Regrets<M>;
 
-    fn configure(_: &dyn Values, _: M) -> Result<Self, Error> {
-        Ok(Self::new())
+    fn configure(values: &dyn Values, memory: M) -> Result<Self, Error> {
+        Self::new(PRIOR_RATIO.number(values)?, memory)
     }
 
-    fn describe(&self, _: &mut dyn FnMut(&'static str, Value<'_>)) {}
+    fn describe(&self, each: &mut dyn FnMut(&'static str, Value<'_>)) {
+        each(PRIOR_RATIO.name, Value::Real(self.prior_ratio.to_f64()));
+    }
 
     fn start(&self, memory: M) -> Regrets<M> {
         let (regrets, squares, largest) = (memory.vector(), memory.vector(), memory.vector());
@@ -80,67 +106,99 @@ impl<M: Memory> Mixer<M> for Mlpol<M> {
         let count = weights.len();
         let regrets = &state.regrets.as_ref()[..count];
         let squares = &state.squares.as_ref()[..count];
+        let priors = &self.priors.as_ref()[..count];
+        let mut positive = false;
         for i in 0..count {
-            let ratio = regrets[i] / squares[i];
+            let ratio = priors[i] * (regrets[i] / squares[i]);
             // no branch: where it is not to be used it may be no number
-            weights[i] = if regrets[i] > zero && squares[i] > zero { ratio } else { zero };
+            let is_positive = (regrets[i] > zero) & (squares[i] > zero);
+            weights[i] = if is_positive { ratio } else { zero };
+            positive |= is_positive;
+        }
+        if !positive {
+            weights.copy_from_slice(priors);
         }
     }
 
     // always, so that it is compiled for the number of members that whoever calls it has
     #[inline(always)]
     fn learn(&self, state: &mut Regrets<M>, forecasts: &Forecasts<'_, M::Real>) {
-        state.widen(forecasts);
-        if state.unit == M::Real::ZERO {
-            return;
+        if let ([mixed], true) = (forecasts.mixed, forecasts.are_all_awake()) {
+            return state.learn_one(*mixed, forecasts.errors);
         }
-        // bounded, so that 0 times it is 0
-        let per_unit = (M::Real::ONE / state.unit).min(M::Real::CEILING);
-        let two = M::Real::from_f64(2.0);
-        let (count, width) = (forecasts.awake.len(), forecasts.mixed.len());
-        let regrets = &mut state.regrets.as_mut()[..count];
-        let squares = &mut state.squares.as_mut()[..count];
-        let largest = &mut state.largest.as_mut()[..count];
-        let errors = &forecasts.errors[..count * width];
-        for i in 0..count {
-            if !forecasts.awake[i] {
-                continue;
-            }
-            let mut regret = M::Real::ZERO;
-            for j in 0..width {
-                let mixed = forecasts.mixed[j];
-                let worse = (mixed - errors[i * width + j]) * per_unit;
-                regret += two * (mixed * per_unit) * worse;
-            }
-            let squared = regret * regret;
-            let next = largest[i].max(squared);
-            regrets[i] += regret;
-            squares[i] += squared + (next - largest[i]);
-            largest[i] = next;
+        let largest = forecasts.awake().flat_map(|i| forecasts.error(i));
+        state.widen(largest.fold(M::Real::ZERO, |largest, e| largest.max(e.abs())));
+        let per_unit = state.per_unit();
+        for i in forecasts.awake() {
+            let pairs = forecasts.mixed.iter().zip(forecasts.error(i));
+            let regret = pairs.fold(M::Real::ZERO, |sum, (&mixed, &e)| {
+                sum + regret(mixed, e, per_unit)
+            });
+            state.add(i..i + 1, |_| regret);
         }
     }
 }
 
+/// 2 e (e − e_i) in the unit of which this is the reciprocal
+#[inline(always)]
+fn regret<T: Real>(mixed: T, error: T, per_unit: T) -> T {
+    let scaled = mixed * per_unit;
+    (scaled + scaled) * ((mixed - error) * per_unit)
+}
+
 impl<M: Memory> Regrets<M> {
-    /// Makes the unit the largest error so far.
+    /// Learns from one error of each member, none of which is asleep.
     #[inline(always)]
-    fn widen(&mut self, forecasts: &Forecasts<'_, M::Real>) {
-        let width = forecasts.mixed.len();
-        let mut unit = self.unit;
-        for (i, &awake) in forecasts.awake.iter().enumerate() {
-            for j in 0..width {
-                let error = forecasts.errors[i * width + j].abs();
-                unit = if awake { unit.max(error) } else { unit };
+    fn learn_one(&mut self, mixed: M::Real, errors: &[M::Real]) {
+        let (fours, rest) = errors.as_chunks::<4>();
+        // four side by side, so that fewer wait for each other
+        let mut parts = [self.unit; 4];
+        for four in fours {
+            for j in 0..4 {
+                parts[j] = parts[j].max(four[j].abs());
             }
         }
-        if unit > self.unit {
-            let ratio = self.unit / unit;
+        for (part, e) in parts.iter_mut().zip(rest) {
+            *part = part.max(e.abs());
+        }
+        self.widen(parts[0].max(parts[1]).max(parts[2].max(parts[3])));
+        let per_unit = self.per_unit();
+        self.add(0..errors.len(), |i| regret(mixed, errors[i], per_unit));
+    }
+
+    /// Adds the regret of each of these members.
+    #[inline(always)]
+    fn add(&mut self, members: core::ops::Range<usize>, regret: impl Fn(usize) -> M::Real) {
+        let regrets = &mut self.regrets.as_mut()[members.clone()];
+        let squares = &mut self.squares.as_mut()[members.clone()];
+        let largest = &mut self.largest.as_mut()[members.clone()];
+        for k in 0..regrets.len() {
+            let regret = regret(members.start + k);
+            let squared = regret * regret;
+            let next = largest[k].max(squared);
+            regrets[k] += regret;
+            squares[k] += squared + (next - largest[k]);
+            largest[k] = next;
+        }
+    }
+
+    /// Bounded, so that 0 times it is 0.
+    #[inline(always)]
+    fn per_unit(&self) -> M::Real {
+        (M::Real::ONE / self.unit).min(M::Real::CEILING)
+    }
+
+    /// Makes `largest`, the largest error of a sample, the unit if it is larger than all before.
+    #[inline(always)]
+    fn widen(&mut self, largest: M::Real) {
+        if largest > self.unit {
+            let ratio = self.unit / largest;
             let squared = ratio * ratio;
             self.regrets.as_mut().iter_mut().for_each(|r| *r *= squared);
             for sum in self.squares.as_mut().iter_mut().chain(self.largest.as_mut()) {
                 *sum = *sum * squared * squared;
             }
-            self.unit = unit;
+            self.unit = largest;
         }
     }
 }
@@ -168,7 +226,8 @@ mod tests {
     /// Errors 3 and 1 of two members of equal weight: e = 2, r = (−4, 4), S = 2 r².
     #[test]
     fn one_step_by_hand() {
-        let (mixer, memory) = (Mlpol::<Dynamic<f64>>::new(), Dynamic::new(2, 1, 1).unwrap());
+        let memory = Dynamic::<f64>::new(2, 1, 1).unwrap();
+        let mixer = Mlpol::new(1.0, memory).unwrap();
         let mut state = mixer.start(memory);
         let forecasts = Forecasts {
             errors: &[3.0, 1.0],
@@ -187,7 +246,8 @@ mod tests {
 
     #[test]
     fn a_member_that_sleeps_is_not_judged() {
-        let (mixer, memory) = (Mlpol::<Dynamic<f64>>::new(), Dynamic::new(2, 1, 1).unwrap());
+        let memory = Dynamic::<f64>::new(2, 1, 1).unwrap();
+        let mixer = Mlpol::new(1.0, memory).unwrap();
         let mut state = mixer.start(memory);
         let forecasts = Forecasts {
             errors: &[f64::NAN, 1.0],

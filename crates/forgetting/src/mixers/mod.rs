@@ -32,6 +32,12 @@ impl<T: Real> Forecasts<'_, T> {
         &self.errors[i * width..(i + 1) * width]
     }
 
+    /// Whether every member took the sample.
+    #[inline]
+    pub fn are_all_awake(&self) -> bool {
+        self.awake.iter().fold(true, |all, &awake| all & awake)
+    }
+
     /// The members that took the sample.
     pub fn awake(&self) -> impl Iterator<Item = usize> + '_ {
         self.awake.iter().enumerate().filter_map(|(i, &awake)| awake.then_some(i))
