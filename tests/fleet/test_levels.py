@@ -80,6 +80,13 @@ for dtype in ("float64", "float32"):
         bank = fg.Bank(n, dtype=dtype)
         run = bank.run(phi, y)
         hashed.update(run.theta.tobytes() + run.error.tobytes() + bank.to_bytes())
+    for n in (11, 16, 37):
+        random = np.random.default_rng(n)
+        phi, y = random.normal(size=(150, n)).astype(dtype), random.normal(size=150).astype(dtype)
+        phi[40:60, 1:] = 0.0
+        bank = fg.Bank(n, dtype=dtype)
+        run = bank.run(phi, y)
+        hashed.update(run.theta.tobytes() + run.error.tobytes() + bank.to_bytes())
 print(hashed.hexdigest())
 """
 

@@ -179,6 +179,59 @@ fn walks_are_the_same_side_by_side() {
     }
 }
 
+/// The largest difference of two lists of the bits of numbers, in units of the largest number.
+fn difference(one: &[u64], other: &[u64]) -> f64 {
+    let (one, other) = (one.iter(), other.iter());
+    let pairs = one.zip(other).map(|(&a, &b)| (f64::from_bits(a), f64::from_bits(b)));
+    let (most, size) = pairs.fold((0.0, 0.0), |(most, size): (f64, f64), (a, b)| {
+        (most.max((a - b).abs()), size.max(a.abs()))
+    });
+    assert!(most.is_finite() && size > 0.0);
+    most / size
+}
+
+/// Of more than ten parameters the members add up in another order side by side than one by one.
+fn same_to_rounding<T: Kernels>(n: usize, count: usize, data: bool, tolerance: f64) {
+    let members = walks::<T>(n, count);
+    let make = || {
+        let mixer = mixer("mlpol", count);
+        if data { Bank::of_data(members.clone(), mixer) } else { Bank::new(members.clone(), mixer) }
+            .unwrap()
+    };
+    let (phi, y) = record::<T>(n, 400);
+    let [mut apart, mut single, mut many] = [make(), make(), make()];
+    let expected = one_by_one(&mut apart, (&phi, &y), false);
+    let of_single = one_by_one(&mut single, (&phi, &y), true);
+    let (reported, calls) = together(&mut many, (&phi, &y));
+    assert!(calls < 400, "{calls} calls: the members do not run side by side");
+    assert_eq!(reported, of_single, "{n}");
+    assert_eq!(reported.windup, expected.windup);
+    for (what, own, expected) in [
+        ("errors", &reported.errors, &expected.errors),
+        ("leverages", &reported.leverages, &expected.leverages),
+        ("theta", &reported.thetas, &expected.thetas),
+    ] {
+        let found = difference(expected, own);
+        assert!(found < tolerance, "{what} of {n}: {found}");
+    }
+    let bytes = many.to_bytes().unwrap();
+    assert_eq!(single.to_bytes().unwrap(), bytes);
+    // a saved bank goes on as the bank does
+    let mut again = Bank::from_bytes(&bytes).unwrap();
+    let (expected, _) = together(&mut many, (&phi, &y));
+    assert_eq!(together(&mut again, (&phi, &y)).0, expected);
+    many.reset();
+    assert_eq!(many.to_bytes().unwrap(), make().to_bytes().unwrap());
+}
+
+#[test]
+fn walks_of_many_parameters_are_the_same_side_by_side_to_rounding() {
+    for (n, count) in [(11, 8), (12, 5), (13, 9), (16, 2), (27, 17), (40, 8)] {
+        same_to_rounding::<f64>(n, count, n % 2 == 0, 1e-9);
+        same_to_rounding::<f32>(n, count, n % 2 == 1, 2e-3);
+    }
+}
+
 #[test]
 fn any_number_of_members_is_the_same_side_by_side() {
     for count in [2, 3, 7, 9, 16, 17, 40] {

@@ -3,7 +3,7 @@
 
 use forgetting::bank::{default_members, default_mixer, Bank};
 use forgetting::choice::Defaults;
-use forgetting::compact::{self, MEMBERS};
+use forgetting::compact;
 use forgetting::mixers::AnyMixer;
 use forgetting::rates::AnyRate;
 use forgetting::rules::{RandomWalk, Rule};

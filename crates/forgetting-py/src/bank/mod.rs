@@ -26,7 +26,7 @@ use pyo3::types::PyDict;
 ///     A rule each; random walks of eight speeds if not given, of the six slowest with a weighting.
 /// mixer : str or Mixer, default "mlpol"
 ///     How members are weighed; see `forgetting.mixers()`. For the default members, the slowest
-///     first, `mlpol` has a `prior_ratio` of 0.94 unless told otherwise.
+///     first, `mlpol` has a `prior_ratio` of 0.93 unless told otherwise.
 /// weighting, gate : optional
 ///     As those of `RLS`, the same for all members; no function of yours.
 /// rows, targets : int, default 1

@@ -22,7 +22,7 @@ pub const DEFAULT_NOISE: [f64; 8] = [1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e
 /// The weight beforehand of each default member over that of the next slower one. Where nothing changes the
 /// slow members are so alike that it takes long to give up the faster ones of them; with this they start
 /// behind. A smaller one costs more where parameters jump than it gains where they rest.
-pub const DEFAULT_PRIOR_RATIO: f64 = 0.94;
+pub const DEFAULT_PRIOR_RATIO: f64 = 0.93;
 
 /// What mixes the default members: [`mlpol`](crate::mixers::mlpol) with [`DEFAULT_PRIOR_RATIO`].
 ///

@@ -91,10 +91,11 @@ impl<T: Kernels> Bank<T> {
     /// Takes samples of n numbers `phi` and one number `y` each, in one call; writes what became of
     /// each to `outcomes` and returns how many it took, at most as many as there are outcomes.
     ///
-    /// It takes none unless all members forget in the same way and have at most ten parameters, one row,
-    /// one target, equal weights and no gate, and stops before a sample that one of them cannot use:
-    /// [`Bank::update`] takes that one, or says what is wrong with it. The result is that of one
-    /// update a sample, bit for bit.
+    /// It takes none unless all members forget in the same way, have one row, one target, equal weights
+    /// and no gate, and at most ten parameters, or, if they are random walks, 256. It stops before a sample
+    /// that one of them cannot use: [`Bank::update`] takes that one, or says what is wrong with it. The
+    /// result is that of one update a sample, bit for bit. Where a noise or an elapsed time is given,
+    /// the members take the sample one by one: of more than ten parameters the same to rounding.
     pub fn update_many(
         &mut self,
         phi: &[T],

@@ -1,4 +1,4 @@
-//! Members that forget in the same way and have few parameters: a member in each lane of the vectors.
+//! Members that forget in the same way: a member in each lane of the vectors.
 
 use crate::estimator::{AnyEstimator, Numbers};
 use crate::memory::state::Visitor;
@@ -7,12 +7,15 @@ use alloc::vec::Vec;
 use forgetting_kernels::kernel::form::Form;
 use forgetting_kernels::kernel::lanes::storage::{Layout, Line};
 use forgetting_kernels::kernel::lanes::together::{MixThetas, Together};
+use forgetting_kernels::kernel::lanes::SCRATCH;
 use forgetting_kernels::kernel::layout::{COMPACT, FEW};
 use forgetting_kernels::kernel::outcome::Outcome;
 use forgetting_kernels::Kernels;
 
 /// The most samples that are taken together.
 const BATCH: usize = 32;
+/// The most parameters: members of more leave the nearer caches, and are better taken one by one.
+const MANY: usize = 256;
 
 /// θ and P of all members, as a fleet keeps its streams.
 #[derive(Clone, Debug)]
@@ -39,6 +42,8 @@ struct Buffers<T: Kernels> {
     largest: Vec<T>,
     /// θ of each member, n lines a block and sample
     thetas: Vec<Line<T>>,
+    /// what members of many parameters need meanwhile
+    scratch: Vec<Line<T>>,
 }
 
 impl<T: Kernels> Lanes<T> {
@@ -48,33 +53,36 @@ impl<T: Kernels> Lanes<T> {
             return None;
         }
         let parameters = members[0].prior().memory().parameters();
-        let form = members[0].form()?;
+        let form = members[0].form_beside_others()?;
         let alike = |member: &AnyEstimator<T>| {
-            member.health().is_none() && member.form().is_some_and(|own| is_alike(form, own))
+            member.health().is_none()
+                && member.form_beside_others().is_some_and(|own| is_alike(form, own))
         };
         // one member alone has no use for lanes
-        if members.len() < 2 || parameters > FEW || !members.iter().all(alike) {
+        if members.len() < 2 || parameters > MANY || !members.iter().all(alike) {
             return None;
         }
         // P and θ alone, in the order of a stream
         let own = Numbers::of(&mut members[0].clone());
-        if own.numbers.len() != Layout::new(parameters).length() || own.counts.len() != 1 {
+        if own.numbers.len() != layout(parameters).length() || own.counts.len() != 1 {
             return None;
         }
         let blocks = members.len().div_ceil(Line::<T>::LANES);
         let mut strengths = alloc::vec![Line::splat(T::ZERO); blocks];
         for (i, member) in members.iter().enumerate() {
-            strengths[i / Line::<T>::LANES].set(i % Line::<T>::LANES, strength(member.form()?));
+            strengths[i / Line::<T>::LANES]
+                .set(i % Line::<T>::LANES, strength(member.form_beside_others()?));
         }
         let usual = Outcome { forgot: true, used: true, ..Outcome::default() };
-        let width = batch(blocks) * blocks * Line::<T>::LANES;
+        let most = batch(blocks, parameters);
+        let width = most * blocks * Line::<T>::LANES;
         let zeros = |length| alloc::vec![T::ZERO; length];
         let lines = |length| alloc::vec![Line::splat(T::ZERO); length];
         Some(Self {
             parameters,
             form,
             strengths,
-            lines: lines(blocks * Layout::new(parameters).length()),
+            lines: lines(blocks * layout(parameters).length()),
             samples: alloc::vec![0; members.len()],
             limits: members.iter().map(AnyEstimator::windup_limit).collect(),
             factors: members.iter().map(|one| one.report(&usual).forgetting_factor).collect(),
@@ -82,19 +90,20 @@ impl<T: Kernels> Lanes<T> {
                 errors: zeros(width),
                 leverages: zeros(width),
                 largest: zeros(width),
-                thetas: lines(batch(blocks) * blocks * parameters),
+                thetas: lines(most * blocks * parameters),
+                scratch: lines(if parameters > FEW { SCRATCH * parameters } else { 0 }),
             },
         })
     }
 
     /// The most samples that [`Lanes::advance`] takes.
     pub fn most(&self) -> usize {
-        batch(self.strengths.len())
+        batch(self.strengths.len(), self.parameters)
     }
 
     /// Takes the state of each member.
     pub fn load(&mut self, members: &mut [AnyEstimator<T>]) {
-        let length = Layout::new(self.parameters).length();
+        let length = layout(self.parameters).length();
         for (i, member) in members.iter_mut().enumerate() {
             let (block, lane) = (i / Line::<T>::LANES, i % Line::<T>::LANES);
             let own = Numbers::of(member);
@@ -120,7 +129,7 @@ impl<T: Kernels> Lanes<T> {
     /// Shows every number of the members' states to `visitor`: each number of all of them, then
     /// the next; then their counts.
     pub fn visit(&mut self, visitor: &mut dyn Visitor<T>) {
-        let (count, length) = (self.samples.len(), Layout::new(self.parameters).length());
+        let (count, length) = (self.samples.len(), layout(self.parameters).length());
         for (block, lines) in self.lines.chunks_exact_mut(length).enumerate() {
             let own = (count - block * Line::<T>::LANES).min(Line::<T>::LANES);
             lines.iter_mut().for_each(|line| visitor.reals(&mut line.0.as_mut()[..own]));
@@ -136,7 +145,7 @@ impl<T: Kernels> Lanes<T> {
 
     /// Gives `member` the state of the i-th.
     pub fn store_one(&self, i: usize, member: &mut AnyEstimator<T>) {
-        let length = Layout::new(self.parameters).length();
+        let length = layout(self.parameters).length();
         let (block, lane) = (i / Line::<T>::LANES, i % Line::<T>::LANES);
         let lines = &self.lines[block * length..(block + 1) * length];
         let numbers = lines.iter().map(|line| line.get(lane)).collect();
@@ -158,6 +167,7 @@ impl<T: Kernels> Lanes<T> {
             leverages: &mut buffers.leverages,
             largest: &mut buffers.largest,
             thetas: &mut buffers.thetas,
+            scratch: &mut buffers.scratch,
             parameters: *parameters,
         });
         samples.iter_mut().for_each(|samples| *samples += taken as u64);
@@ -201,12 +211,17 @@ impl<T: Kernels> Lanes<T> {
 
     /// Whether each member that is believed has wound up.
     pub fn windup_now(&self, weights: &[T]) -> bool {
-        let layout = Layout::new(self.parameters);
+        let (n, layout) = (self.parameters, layout(self.parameters));
         let wound_up = |i: usize| {
             let (block, lane) = (i / Line::<T>::LANES, i % Line::<T>::LANES);
-            let first = block * layout.length() + layout.diagonal();
-            let elements = self.lines[first..first + self.parameters].iter();
-            elements.map(|line| line.get(lane)).any(|d| d > self.limits[i])
+            let lines = &self.lines[block * layout.length() + layout.diagonal()..];
+            let (d, deferred) = lines[..n + layout.deferred()].split_at(n);
+            let factor = deferred.last().map_or(T::ONE, |line| line.get(lane));
+            let variances =
+                (0..n).filter_map(|i| deferred.get(i * n - i * i.saturating_sub(1) / 2));
+            let largest = variances.fold(T::ZERO, |most, line| most.max(factor * line.get(lane)));
+            d.iter().map(|line| line.get(lane)).any(|d| d > self.limits[i])
+                || largest > self.limits[i]
         };
         weights.iter().enumerate().all(|(i, &weight)| weight == T::ZERO || wound_up(i))
     }
@@ -221,15 +236,25 @@ impl<T: Kernels> Lanes<T> {
 
     /// θ of the mixture now.
     pub fn theta(&self, weights: &[T], mixed: &mut [T]) {
-        let layout = Layout::new(self.parameters);
+        let layout = layout(self.parameters);
         let (thetas, stride) = (&self.lines[layout.theta()..], layout.length());
         T::mix_thetas(MixThetas { thetas, stride, weights, mixed });
     }
 }
 
-/// How many samples are taken together: fewer of many members, so that what they bring stays near.
-fn batch(blocks: usize) -> usize {
-    (BATCH / blocks).max(1)
+/// How many samples are taken together: fewer of many members, or of many parameters, so that what they
+/// bring stays near.
+fn batch(blocks: usize, parameters: usize) -> usize {
+    (BATCH / blocks / parameters.div_ceil(FEW)).max(1)
+}
+
+/// Where the numbers of a member of so many parameters are.
+fn layout(parameters: usize) -> Layout {
+    if parameters > FEW {
+        Layout::with_deferred(parameters)
+    } else {
+        Layout::new(parameters)
+    }
 }
 
 /// Whether two forms differ in their strength alone, and can run in lanes.

@@ -5,6 +5,7 @@ use super::{Estimator, Recursion};
 use crate::error::Error;
 use crate::memory::Memory;
 use crate::rates::{AnyRate, Constant, Rate};
+use crate::rules::Forgetting;
 use crate::rules::Rule;
 use crate::sample::NoiseVariance;
 use crate::weightings::AnyWeighting;
@@ -74,6 +75,12 @@ impl<T: Kernels> AnyEstimator<T> {
     /// How every sample changes P, if there is nothing to do but to forget, measure and correct.
     pub(crate) fn form(&self) -> Option<Form<T>> {
         self.recursion.design.steady.map(|steady| steady.form)
+    }
+
+    /// The same beside other estimators of the same kind: also a walk of many parameters.
+    pub(crate) fn form_beside_others(&self) -> Option<Form<T>> {
+        let design = &self.recursion.design;
+        self.form().or_else(|| design.rule.walk().filter(|_| design.is_plain()))
     }
 
     /// Renews the units of the data after the last sample, for which that is due.

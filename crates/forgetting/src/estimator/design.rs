@@ -47,20 +47,33 @@ where
 {
     /// From these parts.
     pub fn new(rule: F, rate: R, weighting: W, gate: AnyGate<M>, prior: Prior<M>) -> Self {
-        let memory = prior.memory();
-        let plain =
-            (memory.rows(), memory.targets()) == (1, 1) && weighting.is_equal() && gate.is_open();
-        let steady =
-            rate.constant().filter(|_| plain).map(|lambda| lambda.max(M::Real::EPSILON)).and_then(
-                |lambda| rule.form(lambda, M::Real::ONE).map(|form| Steady { lambda, form }),
-            );
         let windup = M::Real::from_f64(WINDUP);
         let windup_limit = windup * prior.factor().largest();
         let estimates_noise = prior.is_of_data();
-        let mut design =
-            Self { rule, rate, weighting, gate, prior, estimates_noise, steady, windup_limit };
+        let mut design = Self {
+            rule,
+            rate,
+            weighting,
+            gate,
+            prior,
+            estimates_noise,
+            steady: None,
+            windup_limit,
+        };
         design.estimates_noise &= design.needs_noise_variance();
+        if let Some(lambda) = design.rate.constant().filter(|_| design.is_plain()) {
+            let lambda = lambda.max(M::Real::EPSILON);
+            let form = design.rule.form(lambda, M::Real::ONE);
+            design.steady = form.map(|form| Steady { lambda, form });
+        }
         design
+    }
+
+    /// Whether samples have one row and one target and are all trusted alike.
+    pub fn is_plain(&self) -> bool {
+        let memory = self.prior.memory();
+        let one = (memory.rows(), memory.targets()) == (1, 1);
+        one && self.weighting.is_equal() && self.gate.is_open()
     }
 
     /// Whether rate, weighting or gate judge errors by their size.

@@ -130,6 +130,12 @@ pub trait Forgetting<M: Memory>: Clone + core::fmt::Debug + Send + Sync {
         None
     }
 
+    /// The walk that [`Forgetting::forget`] takes at each sample, one unit of time after the last, if it is
+    /// one of any number of parameters, and the rule keeps no state.
+    fn walk(&self) -> Option<Form<M::Real>> {
+        None
+    }
+
     /// Takes note of a sample that is measured although nothing is forgotten, because a gate
     /// says so. Only a rule whose state follows P need do so; P itself is not to be changed.
     #[inline]
@@ -172,6 +178,7 @@ registry! {
         fn bounds(&self, constants: &Constants) -> Bounds;
         #[inline]
         fn form(&self, forgetting_factor: M::Real, elapsed: M::Real) -> Option<Form<M::Real>>;
+        fn walk(&self) -> Option<Form<M::Real>>;
         #[inline(never)]
         fn follow(&self, state: &mut State, step: Step<'_, '_, M>);
         fn change_units(&self, state: &mut State, ratios: &[M::Real]);

@@ -252,17 +252,21 @@ impl<M: Memory> Forgetting<M> for RandomWalk<M> {
     /// A walk, where every parameter walks alike and there are few.
     #[inline]
     fn form(&self, _: M::Real, elapsed: M::Real) -> Option<Form<M::Real>> {
-        let noise = self.process_noise.scalar_given()? * self.steps(elapsed);
-        let few = self.process_noise.parameters() <= FEW;
-        let walks = noise >= M::Real::FLOOR || (noise > M::Real::ZERO && self.bound.is_none());
-        if !few || self.turns.is_some() {
+        if self.process_noise.parameters() > FEW || self.turns.is_some() {
             return None;
         }
+        let noise = self.process_noise.scalar_given()? * self.steps(elapsed);
+        let walks = noise >= M::Real::FLOOR || (noise > M::Real::ZERO && self.bound.is_none());
         if walks {
             return Some(Form::Walk { noise, per_bound: self.per_bound });
         }
         // no time has passed, or too little for numbers to show
         (elapsed < M::Real::ONE).then_some(Form::NOTHING)
+    }
+
+    fn walk(&self) -> Option<Form<M::Real>> {
+        let noise = self.process_noise.scalar_given().filter(|_| self.turns.is_none())?;
+        (noise >= M::Real::FLOOR).then_some(Form::Walk { noise, per_bound: self.per_bound })
     }
 
     #[inline]

@@ -8,6 +8,8 @@
 //! U above its diagonal, by columns | D | bound of P's trace | θ
 //! n (n − 1)/2                        n   1                    n
 //! ```
+//!
+//! Where something is added to P later, it lies between D and the bound.
 
 use crate::number::Real;
 
@@ -43,13 +45,26 @@ impl<T: Real> Line<T> {
 #[derive(Clone, Copy, Debug)]
 pub struct Layout {
     n: usize,
+    deferred: usize,
 }
 
 impl Layout {
     /// Of n parameters.
     #[inline(always)]
     pub const fn new(n: usize) -> Self {
-        Self { n }
+        Self { n, deferred: 0 }
+    }
+
+    /// The same beside a symmetric matrix: its upper triangle row by row, and a common factor.
+    #[inline(always)]
+    pub const fn with_deferred(n: usize) -> Self {
+        Self { n, deferred: n * (n + 1) / 2 + 1 }
+    }
+
+    /// How many numbers the matrix takes.
+    #[inline(always)]
+    pub const fn deferred(self) -> usize {
+        self.deferred
     }
 
     /// How many numbers there are.
@@ -73,7 +88,7 @@ impl Layout {
     /// The bound of P's trace.
     #[inline(always)]
     pub const fn bound(self) -> usize {
-        self.diagonal() + self.n
+        self.diagonal() + self.n + self.deferred
     }
 
     /// θ

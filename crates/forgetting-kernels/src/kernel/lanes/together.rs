@@ -1,11 +1,11 @@
-//! The same samples for several estimators of at most ten parameters, one in each lane of the vectors.
+//! The same samples for several estimators, one in each lane of the vectors.
 
 use super::few::{correct, State};
-use super::{accepts, LaneOutcome};
+use super::{accepts, many, LaneOutcome};
 use crate::kernel::dispatch::Kernel;
 use crate::kernel::form::{shrink, Form};
 use crate::kernel::lanes::storage::{Layout, Line};
-use crate::kernel::layout::COMPACT;
+use crate::kernel::layout::{COMPACT, FEW};
 use crate::kernel::registers::Small;
 use crate::kernel::vectors::few_products;
 use crate::number::vector::{StreamVector, Vector};
@@ -15,11 +15,12 @@ use crate::number::Real;
 pub struct Together<'a, T: Real> {
     /// how many estimators there are
     pub count: usize,
-    /// how they forget, but for its strength: [`Form::Scale`] or [`Form::Walk`]
+    /// how they forget, but for its strength: [`Form::Scale`] or [`Form::Walk`], of more than ten
+    /// parameters the latter
     pub form: Form<T>,
     /// what P is multiplied with, or the noise of a walk: a line a block
     pub strengths: &'a [Line<T>],
-    /// [`Layout::length`] lines a block
+    /// [`Layout::length`] lines a block; with what is deferred, of more than ten parameters
     pub lines: &'a mut [Line<T>],
     /// n numbers a sample
     pub phi: &'a [T],
@@ -35,6 +36,8 @@ pub struct Together<'a, T: Real> {
     pub thetas: &'a mut [Line<T>],
     /// n
     pub parameters: usize,
+    /// [`SCRATCH`](super::SCRATCH)·n lines, for more than ten parameters
+    pub scratch: &'a mut [Line<T>],
 }
 
 impl<T: Real> Kernel<T> for Together<'_, T> {
@@ -50,6 +53,9 @@ impl<T: Real> Kernel<T> for Together<'_, T> {
     fn run<V: Vector<T>, const GROUP: usize>(mut self) -> usize {
         match self.form {
             _ if COMPACT => 0,
+            Form::Walk { .. } if self.parameters > FEW => {
+                many::walk::advance::<T, V::StreamVector>(&mut self)
+            }
             Form::Walk { .. } => {
                 with_few!(self.parameters, walks::<T, V>(&mut self))
             }
@@ -105,7 +111,7 @@ fn advance<T: Real, A: StreamVector<T>, const N: usize, const WALK: bool>(
 
 /// The first lane of each vector of a block that holds any of the `count` estimators.
 #[inline(always)]
-fn lanes<T: Real, A: StreamVector<T>>(
+pub fn lanes<T: Real, A: StreamVector<T>>(
     count: usize,
     block: usize,
 ) -> core::iter::StepBy<core::ops::Range<usize>> {
@@ -196,7 +202,7 @@ impl<T: Real> Kernel<T> for MixThetas<'_, T> {
 
     #[inline(always)]
     fn run<V: Vector<T>, const GROUP: usize>(self) {
-        if COMPACT {
+        if COMPACT || self.mixed.len() > FEW {
             mix_some(self);
         } else if GROUP < 8 {
             with_few!(self.mixed.len(), mix::<T>(self));
@@ -204,15 +210,17 @@ impl<T: Real> Kernel<T> for MixThetas<'_, T> {
     }
 }
 
-/// Any number of them, where programs are to be small.
+/// Any number of parameters.
+#[inline(always)]
 fn mix_some<T: Real>(task: MixThetas<'_, T>) {
-    task.mixed.fill(T::ZERO);
-    for (i, &weight) in task.weights.iter().enumerate() {
-        let (block, lane) = (i / Line::<T>::LANES, i % Line::<T>::LANES);
-        let thetas = &task.thetas[block * task.stride..];
-        for (mixed, theta) in task.mixed.iter_mut().zip(thetas) {
-            *mixed = weight.mul_add(theta.0.as_ref()[lane], *mixed);
+    for j in 0..task.mixed.len() {
+        let mut mixed = T::ZERO;
+        for i in 0..task.weights.len() {
+            let (block, lane) = (i / Line::<T>::LANES, i % Line::<T>::LANES);
+            let theta = task.thetas[block * task.stride + j].0.as_ref()[lane];
+            mixed = task.weights[i].mul_add(theta, mixed);
         }
+        task.mixed[j] = mixed;
     }
 }
 

@@ -117,6 +117,97 @@ impl<'a, T: Real, A: StreamVector<T>, const C: usize> Group<'a, T, A, C> {
         }
     }
 
+    /// The columns and D after U D Uᵀ + z·zᵀ: z loses what they hold of it, and t at the start of
+    /// [`Work::q`] becomes that of the columns before.
+    #[inline(always)]
+    pub fn add(&mut self, work: &mut Work<'_, T>) {
+        let (z, d): ([A; C], [A; C]) = (self.several(work.z), self.several(work.d));
+        let (mut t, mut rest): (A, [A; C]) = (get(work.q, 0), z);
+        let zeros = [A::splat(T::ZERO); C];
+        let (mut less, mut slope, mut kept) = (zeros, zeros, zeros);
+        for j in (0..C).rev() {
+            less[j] = -rest[j];
+            for i in 0..j {
+                rest[i] = less[j].mul_add(read(&self.corner[j][i], self.lane), rest[i]);
+            }
+        }
+        for j in (0..C).rev() {
+            let scaled = less[j] / t;
+            let grown = scaled.mul_add(less[j], d[j]);
+            t = less[j].mul_add(less[j] / d[j], t);
+            slope[j] = -(scaled / grown);
+            kept[j] = d[j] / grown;
+            put(work.d, self.first + j, grown);
+        }
+        put(work.q, 0, t);
+        let mut least = kept[0];
+        for j in 1..C {
+            least = least.min(kept[j]);
+        }
+        let is_difference = A::splat(T::EPSILON.sqrt()).at_most(least);
+        if A::all(is_difference) {
+            self.add_differences(work, (z, less, slope));
+        } else {
+            self.add_sums(work, (z, less, slope), kept, is_difference);
+        }
+    }
+
+    #[inline(always)]
+    fn add_differences(
+        &mut self,
+        work: &mut Work<'_, T>,
+        (z, less, slope): ([A; C], [A; C], [A; C]),
+    ) {
+        let above = &mut work.z[..self.first];
+        for i in 0..self.first {
+            let mut rest: A = get(above, i);
+            for j in (0..C).rev() {
+                let u = &mut self.rows[j][i];
+                let before: A = read(u, self.lane);
+                rest = less[j].mul_add(before, rest);
+                write(u, self.lane, slope[j].mul_add(rest, before));
+            }
+            put(above, i, rest);
+        }
+        for i in 0..C {
+            let mut rest = z[i];
+            for j in (i + 1..C).rev() {
+                let u = &mut self.corner[j][i];
+                let before: A = read(u, self.lane);
+                rest = less[j].mul_add(before, rest);
+                write(u, self.lane, slope[j].mul_add(rest, before));
+            }
+        }
+    }
+
+    /// The same, each column as a sum of which neither part is larger than P allows, but where it `is` to be a
+    /// difference.
+    #[cold]
+    #[inline(always)]
+    fn add_sums(
+        &mut self,
+        work: &mut Work<'_, T>,
+        (z, less, slope): ([A; C], [A; C], [A; C]),
+        kept: [A; C],
+        is_difference: A::Mask,
+    ) {
+        for i in 0..self.first + C {
+            let own = i.saturating_sub(self.first);
+            let mut rest = if i < self.first { get(work.z, i) } else { z[own] };
+            let right = if i < self.first { 0 } else { own + 1 };
+            for j in (right..C).rev() {
+                let u =
+                    if i < self.first { &mut self.rows[j][i] } else { &mut self.corner[j][own] };
+                let before: A = read(u, self.lane);
+                let after = less[j].mul_add(before, rest);
+                let sum = slope[j].mul_add(rest, kept[j] * before);
+                write(u, self.lane, A::select(is_difference, slope[j].mul_add(after, before), sum));
+                rest = after;
+            }
+            put(work.z, i, rest);
+        }
+    }
+
     /// The columns after the measurement.
     #[inline(always)]
     pub fn measure(&mut self, work: &mut Work<'_, T>) {

@@ -10,7 +10,9 @@ use group::{in_groups, in_groups_from_the_last, Group};
 use work::{get, put, Work};
 
 mod chain;
+mod deferred;
 mod group;
+pub mod walk;
 mod work;
 
 pub use work::SCRATCH;
