@@ -8,6 +8,9 @@ use forgetting_kernels::Real;
 
 /// The numbers of A are multiplied out where their common factor is beyond this or its reciprocal.
 const FAR: f64 = 1e6;
+/// No element is further beyond the largest of the diagonal than rounding can take it: without rounding,
+/// none is beyond it.
+const BEYOND: f64 = 1e3;
 
 /// A, as its numbers over a common factor and that factor at the end, so that all of it is scaled in O(1);
 /// nothing where all of P is in U D Uᵀ.
@@ -164,14 +167,15 @@ impl<M: Memory> Deferred<M> {
         visitor.reals(self.0.as_mut().last_mut().map_or(&mut [], core::slice::from_mut));
     }
 
-    /// Whether all elements are in range, and none on the diagonal negative.
+    /// Whether the diagonal is in range and not negative, and the other elements can go with it.
     pub fn is_sound(&self, n: usize) -> bool {
         let (factor, far) = (self.factor(), M::Real::from_f64(FAR));
-        let in_range = |x: M::Real| x.abs() <= M::Real::CEILING;
+        let variances = M::Real::ZERO..=M::Real::CEILING;
+        let most = M::Real::from_f64(BEYOND) * self.largest(n);
         factor * far >= M::Real::ONE
             && factor <= far
-            && self.variances(n).all(|x| x >= M::Real::ZERO)
-            && self.numbers().iter().all(|&x| in_range(x) && in_range(factor * x))
+            && self.variances(n).all(|x| variances.contains(&x))
+            && self.numbers().iter().all(|&x| (factor * x).abs() <= most)
     }
 
     /// A_ij ← 0 and A_ji ← 0 for all j.
