@@ -1052,7 +1052,7 @@ class Mlpol(Mixer):
 
     | symbol | name | range | default |
     |---|---|---|---|
-    | q | prior_ratio | (0, 1] | 1; 0.94 for the default members of a bank |
+    | q | prior_ratio | (0, 1] | 1; 0.93 for the default members of a bank |
 
     e is the error of the mixture and e_i that of member i; for several rows and targets the products
     are sums over them.

@@ -92,7 +92,7 @@ impl<T: Kernels> Bank<T> {
     /// each to `outcomes` and returns how many it took, at most as many as there are outcomes.
     ///
     /// It takes none unless all members forget in the same way, have one row, one target, equal weights
-    /// and no gate, and at most ten parameters, or, if they are random walks, 256. It stops before a sample
+    /// and no gate, and at most ten parameters, or, if they are random walks, 16 MiB. It stops before a sample
     /// that one of them cannot use: [`Bank::update`] takes that one, or says what is wrong with it. The
     /// result is that of one update a sample, bit for bit. Where a noise or an elapsed time is given,
     /// the members take the sample one by one: of more than ten parameters the same to rounding.

@@ -14,8 +14,9 @@ use forgetting_kernels::Kernels;
 
 /// The most samples that are taken together.
 const BATCH: usize = 32;
-/// The most parameters: members of more leave the nearer caches, and are better taken one by one.
-const MANY: usize = 256;
+/// Bytes that members of more than ten parameters may take: larger ones leave the caches, where they are
+/// better taken one by one.
+const LARGE: usize = 1 << 24;
 
 /// θ and P of all members, as a fleet keeps its streams.
 #[derive(Clone, Debug)]
@@ -58,16 +59,18 @@ impl<T: Kernels> Lanes<T> {
             member.health().is_none()
                 && member.form_beside_others().is_some_and(|own| is_alike(form, own))
         };
+        let (blocks, length) =
+            (members.len().div_ceil(Line::<T>::LANES), layout(parameters).length());
+        let is_large = parameters > FEW && blocks * length * size_of::<Line<T>>() > LARGE;
         // one member alone has no use for lanes
-        if members.len() < 2 || parameters > MANY || !members.iter().all(alike) {
+        if members.len() < 2 || is_large || !members.iter().all(alike) {
             return None;
         }
         // P and θ alone, in the order of a stream
         let own = Numbers::of(&mut members[0].clone());
-        if own.numbers.len() != layout(parameters).length() || own.counts.len() != 1 {
+        if own.numbers.len() != length || own.counts.len() != 1 {
             return None;
         }
-        let blocks = members.len().div_ceil(Line::<T>::LANES);
         let mut strengths = alloc::vec![Line::splat(T::ZERO); blocks];
         for (i, member) in members.iter().enumerate() {
             strengths[i / Line::<T>::LANES]
@@ -82,7 +85,7 @@ impl<T: Kernels> Lanes<T> {
             parameters,
             form,
             strengths,
-            lines: lines(blocks * layout(parameters).length()),
+            lines: lines(blocks * length),
             samples: alloc::vec![0; members.len()],
             limits: members.iter().map(AnyEstimator::windup_limit).collect(),
             factors: members.iter().map(|one| one.report(&usual).forgetting_factor).collect(),
