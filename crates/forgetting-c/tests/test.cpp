@@ -74,7 +74,8 @@ void a_bank() {
     follows_a_line(fg::Estimator<float>(fg::Settings(2), &fg_bank_f32_2));
     fg::Estimator<double> bank(fg::Settings(2), &fg_bank_f64_2);
     bank.update({1.0, 2.0}, 3.0);
-    CHECK(bank.weights() == std::vector<double>(FG_BANK_MEMBERS, 0.125));
+    const std::vector<double> weights = bank.weights();
+    CHECK(weights.size() == FG_BANK_MEMBERS && weights.front() > weights.back() && weights.back() > 0);
     auto loaded = fg::Estimator<double>::from_bytes(bank.to_bytes(), 2, &fg_bank_f64_2);
     CHECK(loaded.theta() == bank.theta());
     is_refused(FG_ERROR_UNSUPPORTED, "rule",

@@ -5,13 +5,13 @@ use super::{Estimator, Recursion};
 use crate::error::Error;
 use crate::memory::Memory;
 use crate::rates::{AnyRate, Constant, Rate};
-use crate::rules::Forgetting;
 use crate::rules::Rule;
 use crate::sample::NoiseVariance;
 use crate::weightings::AnyWeighting;
 #[cfg(feature = "alloc")]
 use {
     crate::memory::Dynamic,
+    crate::rules::Forgetting,
     forgetting_kernels::{kernel::form::Form, Kernels},
 };
 

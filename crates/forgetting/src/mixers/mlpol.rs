@@ -126,15 +126,13 @@ impl<M: Memory> Mixer<M> for Mlpol<M> {
         if let ([mixed], true) = (forecasts.mixed, forecasts.are_all_awake()) {
             return state.learn_one(*mixed, forecasts.errors);
         }
-        let largest = forecasts.awake().flat_map(|i| forecasts.error(i));
-        state.widen(largest.fold(M::Real::ZERO, |largest, e| largest.max(e.abs())));
+        let each = forecasts.errors.chunks_exact(forecasts.mixed.len()).zip(forecasts.awake);
+        let awake = each.clone().filter(|(_, &awake)| awake).flat_map(|(errors, _)| errors);
+        state.widen(awake.fold(M::Real::ZERO, |largest, e| largest.max(e.abs())));
         let per_unit = state.per_unit();
-        for i in forecasts.awake() {
-            let pairs = forecasts.mixed.iter().zip(forecasts.error(i));
-            let regret = pairs.fold(M::Real::ZERO, |sum, (&mixed, &e)| {
-                sum + regret(mixed, e, per_unit)
-            });
-            state.add(i..i + 1, |_| regret);
+        for (own, (errors, _)) in state.each().zip(each).filter(|(_, (_, &awake))| awake) {
+            let pairs = forecasts.mixed.iter().zip(errors);
+            own.add(pairs.fold(M::Real::ZERO, |sum, (&mixed, &e)| sum + regret(mixed, e, per_unit)));
         }
     }
 }
@@ -146,7 +144,32 @@ fn regret<T: Real>(mixed: T, error: T, per_unit: T) -> T {
     (scaled + scaled) * ((mixed - error) * per_unit)
 }
 
+/// What is remembered of a member.
+struct Own<'a, T> {
+    regret: &'a mut T,
+    squares: &'a mut T,
+    largest: &'a mut T,
+}
+
+impl<T: Real> Own<'_, T> {
+    #[inline(always)]
+    fn add(self, regret: T) {
+        let squared = regret * regret;
+        let next = self.largest.max(squared);
+        *self.regret += regret;
+        *self.squares += squared + (next - *self.largest);
+        *self.largest = next;
+    }
+}
+
 impl<M: Memory> Regrets<M> {
+    #[inline(always)]
+    fn each(&mut self) -> impl Iterator<Item = Own<'_, M::Real>> {
+        let (regrets, squares) = (self.regrets.as_mut().iter_mut(), self.squares.as_mut());
+        let each = regrets.zip(squares).zip(self.largest.as_mut());
+        each.map(|((regret, squares), largest)| Own { regret, squares, largest })
+    }
+
     /// Learns from one error of each member, none of which is asleep.
     #[inline(always)]
     fn learn_one(&mut self, mixed: M::Real, errors: &[M::Real]) {
@@ -163,22 +186,8 @@ impl<M: Memory> Regrets<M> {
         }
         self.widen(parts[0].max(parts[1]).max(parts[2].max(parts[3])));
         let per_unit = self.per_unit();
-        self.add(0..errors.len(), |i| regret(mixed, errors[i], per_unit));
-    }
-
-    /// Adds the regret of each of these members.
-    #[inline(always)]
-    fn add(&mut self, members: core::ops::Range<usize>, regret: impl Fn(usize) -> M::Real) {
-        let regrets = &mut self.regrets.as_mut()[members.clone()];
-        let squares = &mut self.squares.as_mut()[members.clone()];
-        let largest = &mut self.largest.as_mut()[members.clone()];
-        for k in 0..regrets.len() {
-            let regret = regret(members.start + k);
-            let squared = regret * regret;
-            let next = largest[k].max(squared);
-            regrets[k] += regret;
-            squares[k] += squared + (next - largest[k]);
-            largest[k] = next;
+        for (own, &e) in self.each().zip(errors) {
+            own.add(regret(mixed, e, per_unit));
         }
     }
 
