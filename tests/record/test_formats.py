@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import bz2
 import datetime
+import gc
 import gzip
 import lzma
 import os
 import struct
+import sys
+import warnings
 import zipfile
 
 import numpy as np
@@ -234,6 +237,20 @@ def test_broken_files_of_measuring_systems(tmp_path, kind):
     (tmp_path / "r").write_bytes(mark + bytes(reversed(range(200))))
     with pytest.raises(RecordError, match=f"whole {kind} file|no group|no topic"):
         read(tmp_path / "r")
+
+
+@pytest.mark.parametrize("content", [b"UnFinMF ", b"MDF     4.10    "])
+def test_half_an_mdf_file_leaves_nothing_open(tmp_path, monkeypatch, content):
+    pytest.importorskip("asammdf")
+    lost: list[object] = []
+    monkeypatch.setattr(sys, "unraisablehook", lambda told: lost.append(told.exc_value))
+    (tmp_path / "r").write_bytes(content)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", ResourceWarning)
+        with pytest.raises(RecordError, match="whole MDF file"):
+            read(tmp_path / "r")
+        gc.collect()
+    assert lost == []
 
 
 @pytest.mark.parametrize(

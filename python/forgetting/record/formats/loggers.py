@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import gc
+import sys
 import warnings
 from typing import Any, BinaryIO
 
@@ -37,8 +39,9 @@ def tdms(stream: BinaryIO, source: str, part: str | None) -> Table:
 def mdf(stream: BinaryIO, source: str, part: str | None) -> Table:
     """Read a channel group of an MDF file by asammdf; groups have clocks of their own."""
     library = extra("asammdf", "reading MDF", "mdf")
-    with on_disk(stream, ".mf4") as path:
-        content = opened(library.MDF, path, source, "MDF")
+    # a file of our own: of one that it cannot read, the library leaves open what it opened
+    with on_disk(stream, ".mf4") as path, open(path, "rb") as file:
+        content = opened(library.MDF, file, source, "MDF")
         try:
             names = {group_name(content, i): i for i in range(len(content.groups))}
             names = {name: i for name, i in names.items() if content.groups[i].channels}
@@ -77,10 +80,16 @@ def ulog(stream: BinaryIO, source: str, part: str | None) -> Table:
 
 def opened(reader: Any, content: Any, source: str, kind: str) -> Any:
     """Open by a library; whatever it makes of broken bytes becomes one sentence."""
+    hook, sys.unraisablehook = sys.unraisablehook, lambda _: None
     try:
-        return quiet(reader, content)
-    except Exception as error:
-        raise RecordError(f"{source} is not a whole {kind} file: {first_line(error)}") from None
+        try:
+            return quiet(reader, content)
+        except Exception as error:
+            words = first_line(error)
+        gc.collect()  # what the library made of half a file may fail once more when it ends
+    finally:
+        sys.unraisablehook = hook
+    raise RecordError(f"{source} is not a whole {kind} file: {words}")
 
 
 def quiet(function: Any, *arguments: Any, **options: Any) -> Any:
