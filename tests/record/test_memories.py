@@ -143,7 +143,7 @@ def test_by_an_even_clock_nothing_changes():
     frame = walking(1e-2, 2000, clock=0.1)
     one = identify(frame, formula="y ~ 0 + x")
     other = identify(frame, formula="y ~ 0 + x", by_clock=True)
-    np.testing.assert_allclose(other.trace.error, one.trace.error, rtol=1e-6, atol=1e-7)
+    np.testing.assert_allclose(other.trace.error, one.trace.error, rtol=1e-6, atol=1e-9)
 
 
 def test_units_of_the_clock_change_nothing():
@@ -152,7 +152,7 @@ def test_units_of_the_clock_change_nothing():
     hours["time_h"] /= 3600
     one = identify(frame, formula="y ~ 0 + x", by_clock=True)
     other = identify(hours, formula="y ~ 0 + x", by_clock=True)
-    np.testing.assert_allclose(other.trace.error, one.trace.error, rtol=1e-6, atol=1e-7)
+    np.testing.assert_allclose(other.trace.error, one.trace.error, rtol=1e-6, atol=1e-9)
 
 
 def test_a_half_life_in_usual_steps_by_the_clock():

@@ -75,7 +75,8 @@ void a_bank() {
     fg::Estimator<double> bank(fg::Settings(2), &fg_bank_f64_2);
     bank.update({1.0, 2.0}, 3.0);
     const std::vector<double> weights = bank.weights();
-    CHECK(weights.size() == FG_BANK_MEMBERS && weights.front() > weights.back() && weights.back() > 0);
+    CHECK(weights.size() == FG_BANK_MEMBERS);
+    for (std::size_t i = 1; i < weights.size(); ++i) CHECK(std::fabs(weights[i] / weights[i - 1] - 0.93) < 1e-14);
     auto loaded = fg::Estimator<double>::from_bytes(bank.to_bytes(), 2, &fg_bank_f64_2);
     CHECK(loaded.theta() == bank.theta());
     is_refused(FG_ERROR_UNSUPPORTED, "rule",

@@ -144,6 +144,15 @@ impl Reported {
     }
 }
 
+/// A saved bank goes on as the bank does, and one that is reset is `fresh`.
+fn goes_on<T: Kernels>(mut bank: Bank<T>, fresh: Bank<T>, record: (&[T], &[T])) {
+    let mut again = Bank::from_bytes(&bank.to_bytes().unwrap()).unwrap();
+    let (expected, _) = together(&mut bank, record);
+    assert_eq!(together(&mut again, record).0, expected);
+    bank.reset();
+    assert_eq!(bank.to_bytes().unwrap(), fresh.to_bytes().unwrap());
+}
+
 fn same_by_all_ways<T: Kernels>(n: usize, members: &[AnyEstimator<T>], name: &str, data: bool) {
     let make = || {
         let mixer = mixer(name, members.len());
@@ -163,12 +172,7 @@ fn same_by_all_ways<T: Kernels>(n: usize, members: &[AnyEstimator<T>], name: &st
     let bytes = apart.to_bytes().unwrap();
     assert_eq!(single.to_bytes().unwrap(), bytes);
     assert_eq!(many.to_bytes().unwrap(), bytes);
-    // a saved bank goes on as the bank does
-    let mut again = Bank::from_bytes(&bytes).unwrap();
-    let (expected, _) = together(&mut many, (&phi, &y));
-    assert_eq!(together(&mut again, (&phi, &y)).0, expected);
-    many.reset();
-    assert_eq!(many.to_bytes().unwrap(), make().to_bytes().unwrap());
+    goes_on(many, make(), (&phi, &y));
 }
 
 #[test]
@@ -216,12 +220,7 @@ fn same_to_rounding<T: Kernels>(n: usize, count: usize, data: bool, tolerance: f
     }
     let bytes = many.to_bytes().unwrap();
     assert_eq!(single.to_bytes().unwrap(), bytes);
-    // a saved bank goes on as the bank does
-    let mut again = Bank::from_bytes(&bytes).unwrap();
-    let (expected, _) = together(&mut many, (&phi, &y));
-    assert_eq!(together(&mut again, (&phi, &y)).0, expected);
-    many.reset();
-    assert_eq!(many.to_bytes().unwrap(), make().to_bytes().unwrap());
+    goes_on(many, make(), (&phi, &y));
 }
 
 #[test]

@@ -49,7 +49,18 @@ def with_time(
     if not by_clock:
         return rule, None
     time = seconds_in(samples, "by_clock")
-    return rule, time / (samples.usual_step or 1.0)
+    return rule, whole_steps(time / (samples.usual_step or 1.0))
+
+
+def whole_steps(steps: Array) -> Array:
+    """Times in usual steps, whole where only the rounding of the time stamps keeps them from it.
+
+    The usual step is the difference of two stamps, and off by as much as a late one is rounded.
+    """
+    near = np.rint(steps)
+    late = steps[-1] if len(steps) else 0.0
+    rounding = 4.0 * np.finfo(float).eps * late * np.maximum(steps, 1.0)
+    return np.where(np.abs(steps - near) <= np.minimum(rounding, 1e-3), near, steps)
 
 
 def rule_for(rule: Any, half_life: Any) -> Any:

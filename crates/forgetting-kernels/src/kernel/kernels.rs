@@ -2,8 +2,9 @@
 
 use super::agee_turner::AgeeTurner;
 use super::eigen::RankOneUpdate;
+use super::lanes::members::Together;
 use super::lanes::streams::{Outputs, Samples, Streams};
-use super::lanes::together::{MixThetas, Together};
+use super::lanes::together::MixThetas;
 use super::lanes::Predict;
 use super::measure::Measure;
 use super::measured::Measured;
@@ -83,7 +84,8 @@ macro_rules! compile_kernels {
             use $crate::kernel::agee_turner::AgeeTurner;
             use $crate::kernel::eigen::RankOneUpdate;
             use $crate::kernel::lanes::streams::{Outputs, Samples, Streams};
-            use $crate::kernel::lanes::together::{MixThetas, Together};
+            use $crate::kernel::lanes::members::Together;
+            use $crate::kernel::lanes::together::MixThetas;
             use $crate::kernel::lanes::{Advance, Predict};
             use $crate::kernel::measure::Measure;
             use $crate::kernel::measured::Measured;

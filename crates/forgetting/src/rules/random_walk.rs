@@ -46,12 +46,12 @@
 //! *Exponential resetting and cyclic resetting recursive least squares*, IEEE Control Systems
 //! Letters 7, 2023.
 
+mod parameters;
 mod passed;
 
 use super::{Forgetting, Forgotten, Step};
 use crate::choice::{
-    About, Bounds, Constants, Guarantee, Guarantees, Input, Kind, Parameter, Range, Setting, Value,
-    Values,
+    About, Bounds, Constants, Guarantee, Guarantees, Input, Setting, Value, Values,
 };
 use crate::covariance::Factor;
 use crate::rules::cycle::{self, Cycle};
@@ -66,28 +66,8 @@ use forgetting_kernels::kernel::layout::FEW;
 use forgetting_kernels::Real;
 use passed::Turns;
 
+pub(crate) use parameters::{BOUND, PROCESS_NOISE, SCHEDULE};
 pub(crate) use passed::steps_after;
-
-pub(crate) const PROCESS_NOISE: Parameter = Parameter::elements(
-    "process_noise",
-    Kind::Matrix,
-    1e-4,
-    Range::NON_NEGATIVE,
-    "covariance of the parameters' steps: c for c*I, n numbers for a diagonal, or n x n",
-);
-
-pub(crate) const BOUND: Parameter = Parameter {
-    name: "bound",
-    about: "what no variance grows beyond without excitation; not bounded if not given",
-    kind: Kind::Real,
-    range: Range::POSITIVE,
-    default: None,
-    optional: true,
-};
-
-pub(crate) const SCHEDULE: Parameter = cycle::schedule(
-    "when process_noise is added: all of it at each sample, or one direction a sample, in O(n^2)",
-);
 
 /// So many dyads a sample are added one by one.
 const FEW_DYADS: usize = 4;

@@ -14,6 +14,7 @@ use streams::{Outputs, Samples, Streams, DEAD_ZONE, MISSING, REFUSED};
 
 mod few;
 mod many;
+pub mod members;
 mod predict;
 mod report;
 mod rows;

@@ -8,8 +8,8 @@ use super::group::in_groups_from_the_last;
 use super::work::{get, put, Work};
 use super::{accepts, read, write, Columns, Line, Real, StreamVector};
 use crate::kernel::form::{shrink, Form};
+use crate::kernel::lanes::members::{lanes, Together};
 use crate::kernel::lanes::storage::Layout;
-use crate::kernel::lanes::together::{lanes, Together};
 
 /// An element of A's diagonal this many times n what a sample adds is moved to U D Uᵀ.
 const LARGE: f64 = 4.0;
