@@ -23,6 +23,7 @@ fn kernels<T: Kernels>() -> Vec<*const ()> {
         T::multiply as *const (),
         T::multiply_transposed as *const (),
         T::variances as *const (),
+        T::trace as *const (),
         T::advance as *const (),
         T::advance_streams as *const (),
         T::predict_streams as *const (),

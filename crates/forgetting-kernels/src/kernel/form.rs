@@ -27,6 +27,13 @@ pub enum Form<T> {
     },
 }
 
+/// Which form a kernel is for: [`Form::Scale`].
+pub const SCALE: u8 = 0;
+/// [`Form::Along`]
+pub const ALONG: u8 = 1;
+/// [`Form::Walk`]
+pub const WALK: u8 = 2;
+
 impl<T: Real> Form<T> {
     /// P̄ = P
     pub const NOTHING: Self = Self::Scale { growth: T::ONE };

@@ -12,7 +12,7 @@ use super::runs::Steps;
 use super::symmetric::{SymmetricMultiply, SymmetricSubtract};
 use super::triangle::{Leverage, Multiply, MultiplyTransposed, Solve};
 use super::units::{ScaleRows, SumRoots};
-use super::variances::Variances;
+use super::variances::{Trace, Variances};
 use super::vectors::{AddScaled, Arrive, Dot};
 use super::watch::{Observation, Observations, Watch};
 use crate::number::Real;
@@ -44,6 +44,8 @@ pub trait Kernels: Real {
     fn symmetric_subtract(task: SymmetricSubtract<'_, Self>);
     /// The diagonal of P.
     fn variances(task: Variances<'_, Self>);
+    /// The trace of P.
+    fn trace(task: Trace<'_, Self>) -> Self;
     /// Takes samples one after the other; returns how many.
     fn advance(steps: &mut Steps<'_, Self>) -> usize;
     /// Takes a sample of each stream; returns how many used it.
@@ -85,15 +87,15 @@ macro_rules! compile_kernels {
             use $crate::kernel::eigen::RankOneUpdate;
             use $crate::kernel::lanes::streams::{Outputs, Samples, Streams};
             use $crate::kernel::lanes::members::Together;
-            use $crate::kernel::lanes::together::MixThetas;
-            use $crate::kernel::lanes::{Advance, Predict};
-            use $crate::kernel::measure::Measure;
+            use $crate::kernel::lanes::together::{self, MixThetas};
+            use $crate::kernel::lanes::{self, Advance, Predict};
+            use $crate::kernel::measure::{self, Measure};
             use $crate::kernel::measured::Measured;
             use $crate::kernel::runs::{self, Steps};
             use $crate::kernel::symmetric::{SymmetricMultiply, SymmetricSubtract};
             use $crate::kernel::triangle::{Leverage, Multiply, MultiplyTransposed, Solve};
             use $crate::kernel::units::{ScaleRows, SumRoots};
-            use $crate::kernel::variances::Variances;
+            use $crate::kernel::variances::{Trace, Variances};
             use $crate::kernel::vectors::{AddScaled, Arrive, Dot};
             use $crate::kernel::watch::{Observation, Observations, Watch};
             use $crate::{Dispatch, Kernels};
@@ -117,7 +119,7 @@ macro_rules! compile_kernels {
                 }
                 $(#[$inline])?
                 fn measure(task: Measure<'_, Self>) -> Option<Measured<Self>> {
-                    <$Dispatch>::run(task)
+                    measure::measure::<Self, $Dispatch>(task)
                 }
                 $(#[$inline])?
                 fn agee_turner(task: AgeeTurner<'_, Self>) {
@@ -148,6 +150,10 @@ macro_rules! compile_kernels {
                     <$Dispatch>::run(task)
                 }
                 $(#[$inline])?
+                fn trace(task: Trace<'_, Self>) -> Self {
+                    <$Dispatch>::run(task)
+                }
+                $(#[$inline])?
                 fn advance(steps: &mut Steps<'_, Self>) -> usize {
                     runs::advance::<Self, $Dispatch>(steps)
                 }
@@ -157,11 +163,11 @@ macro_rules! compile_kernels {
                     samples: Samples<'_, Self>,
                     outputs: &mut Outputs<'_, Self>,
                 ) -> usize {
-                    <$Dispatch>::run(Advance { streams, samples, outputs })
+                    lanes::advance::<Self, $Dispatch>(Advance { streams, samples, outputs })
                 }
                 $(#[$inline])?
                 fn advance_together(task: Together<'_, Self>) -> usize {
-                    <$Dispatch>::run(task)
+                    together::advance::<Self, $Dispatch>(task)
                 }
                 $(#[$inline])?
                 fn mix_thetas(task: MixThetas<'_, Self>) {

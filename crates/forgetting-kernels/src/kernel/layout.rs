@@ -82,7 +82,7 @@ pub fn place<T: Real>(i: usize, j: usize) -> usize {
 }
 
 /// Column j of U above the diagonal, in pieces of [`Real::ROWS`] numbers, the last one shorter.
-pub fn column<T: Real>(columns: &[T], j: usize) -> impl Iterator<Item = &[T]> {
+fn column<T: Real>(columns: &[T], j: usize) -> impl Iterator<Item = &[T]> {
     (0..j).step_by(T::ROWS).map(move |i| {
         let start = place::<T>(i, j);
         &columns[start..start + T::ROWS.min(j - i)]

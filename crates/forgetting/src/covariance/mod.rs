@@ -28,7 +28,7 @@ use core::cmp::Ordering;
 use deferred::Deferred;
 use forgetting_kernels::kernel::functions;
 use forgetting_kernels::kernel::layout;
-use forgetting_kernels::kernel::variances::Variances;
+use forgetting_kernels::kernel::variances::{Trace, Variances};
 use forgetting_kernels::Kernels;
 use forgetting_kernels::Real;
 use units::{put_diagonal, Tiles};
@@ -256,10 +256,7 @@ impl<M: Memory> Factor<M> {
 
 /// The trace of U D Uᵀ for the packed `columns` of U and the elements of D.
 pub(crate) fn trace<T: Kernels>(columns: &[T], diagonal: &[T]) -> T {
-    diagonal.iter().enumerate().fold(T::ZERO, |trace, (j, &d)| {
-        let column = layout::column(columns, j);
-        trace + d * column.fold(T::ONE, |sum, u| sum + functions::dot(u, u))
-    })
+    T::trace(Trace { columns, diagonal })
 }
 
 /// Shows the numbers of U above the diagonal, column by column.

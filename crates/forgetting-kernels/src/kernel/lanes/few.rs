@@ -3,7 +3,7 @@
 use super::{
     accepts, adds, make_room, report, Fate, Form, LaneOutcome, Line, Real, StreamVector, Trace,
 };
-use crate::kernel::form::shrink;
+use crate::kernel::form::{shrink, ALONG, SCALE, WALK};
 use crate::kernel::lanes::storage::Layout;
 use crate::kernel::layout::FEW;
 use crate::kernel::registers::{Gain, Small, Unit};
@@ -97,7 +97,7 @@ impl<T: Real, A: StreamVector<T>, const N: usize> Unit<A, N> for State<'_, T, A,
 
 /// Takes a sample of each stream.
 #[inline(always)]
-pub fn advance<T: Real, A: StreamVector<T>, const N: usize>(
+pub fn advance<T: Real, A: StreamVector<T>, const N: usize, const FORM: u8>(
     state: State<'_, T, A, N>,
     (form, strength): (Form<T>, A),
     (f, y): (&[A; N], A),
@@ -111,18 +111,19 @@ pub fn advance<T: Real, A: StreamVector<T>, const N: usize>(
     let d = state.several(layout.diagonal());
     let small = Small { u: state, d };
     match form {
-        Form::Scale { .. } => {
+        Form::Scale { .. } if FORM == SCALE => {
             scale::<T, A, N, false>(small, (strength, zero), f, (y, error, squares), accepted)
         }
-        Form::Walk { per_bound, .. } => {
+        Form::Walk { per_bound, .. } if FORM == WALK => {
             let walk = (shrink(strength, A::splat(per_bound)), strength);
             scale::<T, A, N, true>(small, walk, f, (y, error, squares), accepted)
         }
-        Form::Along { dead_zone, .. } => {
+        Form::Along { dead_zone, .. } if FORM == ALONG => {
             let informed = A::both(accepted, dead_zone.leaves(squares));
             let arrived = (y, error, squares);
             along(small, strength, f, arrived, (accepted, informed), with_leverage)
         }
+        _ => unreachable!("there is a kernel for each form"),
     }
 }
 

@@ -5,13 +5,16 @@
 //! sample is written back as it was.
 
 use super::layout::FEW;
-use crate::kernel::dispatch::Kernel;
-use crate::kernel::form::{DeadZone, Form};
-use crate::number::vector::{StreamVector, Vector};
+use crate::kernel::dispatch::Dispatch;
+use crate::kernel::form::{DeadZone, Form, ALONG, SCALE, WALK};
+use crate::number::vector::StreamVector;
 use crate::number::Real;
-use storage::{Layout, Line};
+use blocks::Few;
+use many::Many;
+use storage::Line;
 use streams::{Outputs, Samples, Streams, DEAD_ZONE, MISSING, REFUSED};
 
+mod blocks;
 mod few;
 mod many;
 pub mod members;
@@ -36,78 +39,34 @@ pub struct Advance<'a, 's, 'o, T: Real> {
     pub outputs: &'a mut Outputs<'o, T>,
 }
 
-impl<T: Real> Kernel<T> for Advance<'_, '_, '_, T> {
-    type Output = usize;
+/// Does it: a kernel for each form, and for each number of few parameters.
+#[inline(always)]
+pub fn advance<T: Real, D: Dispatch<T>>(task: Advance<'_, '_, '_, T>) -> usize {
+    match task.streams.n {
+        1..=FEW => with_few!(task.streams.n, few::<T, D>(task)),
+        _ => match task.streams.form {
+            Form::Scale { .. } => D::run(Many::<T, SCALE>(task)),
+            Form::Along { .. } => D::run(Many::<T, ALONG>(task)),
+            Form::Walk { .. } => unreachable!("a walk of streams is of few parameters"),
+        },
+    }
+}
 
+#[inline(always)]
+fn few<T: Real, D: Dispatch<T>, const N: usize>(task: Advance<'_, '_, '_, T>) -> usize {
+    match task.streams.form {
+        Form::Scale { .. } => D::run(Few::<T, N, SCALE>(task)),
+        Form::Along { .. } => D::run(Few::<T, N, ALONG>(task)),
+        Form::Walk { .. } => D::run(Few::<T, N, WALK>(task)),
+    }
+}
+
+impl<T: Real> Advance<'_, '_, '_, T> {
     /// Side by side, all streams are one large problem.
     #[inline(always)]
     fn size(&self) -> usize {
         Line::<T>::LANES * self.streams.n * self.streams.count
     }
-
-    #[inline(always)]
-    fn run<V: Vector<T>, const GROUP: usize>(mut self) -> usize {
-        let n = self.streams.n;
-        if n <= FEW {
-            with_few!(n, few::<T, V>(&mut self))
-        } else {
-            many::advance::<T, V::StreamVector>(&mut self)
-        }
-    }
-}
-
-/// How many blocks ahead memory is asked for one.
-const AHEAD: usize = 2;
-
-/// The streams of a part, for few parameters.
-#[inline(always)]
-fn few<T: Real, V: Vector<T>, const N: usize>(task: &mut Advance<'_, '_, '_, T>) -> usize {
-    let Advance { streams: part, samples, outputs } = task;
-    let (lanes, with_leverage) = (Line::<T>::LANES, outputs.leverage.is_some());
-    let last = part.strengths.len() - 1;
-    let length = Layout::new(N).length();
-    let regressors = samples.phi.as_chunks::<N>().0.chunks(lanes);
-    let (mut used, mut rest) = (0, &mut *part.lines);
-    for (block, rows) in regressors.enumerate() {
-        let (lines, later) = rest.split_at_mut(length);
-        // a block is long: without this, memory waits until it is done
-        if let Some(lines) = later.get((AHEAD - 1) * length..AHEAD * length) {
-            for line in lines {
-                V::StreamVector::prefetch(line);
-            }
-        }
-        rest = later;
-        let streams = block * lanes..block * lanes + rows.len();
-        let strength = part.strengths[block.min(last)].0.as_ref();
-        let y = rows::outputs(samples, streams.clone());
-        let mut report = report::Report::new();
-        for lane in (0..lanes).step_by(V::StreamVector::COUNT) {
-            let mut phi = rows::columns(rows, lane);
-            if let Some(units) = &mut part.units {
-                let lines = &mut units.lines[block * 3 * N..(block + 1) * 3 * N];
-                units::Block { lines, lane }.measure(&mut phi);
-            }
-            let state = few::State::<T, V::StreamVector, N>::of(lines, lane);
-            let strength = V::StreamVector::read(&strength[lane..]);
-            let y = V::StreamVector::read(&y.0.as_ref()[lane..]);
-            let outcome = few::advance(state, (part.form, strength), (&phi, y), with_leverage);
-            report.note(lane, &outcome);
-            if let Some(units) = &mut part.units {
-                let lines = &mut units.lines[block * 3 * N..(block + 1) * 3 * N];
-                let mut units = units::Block { lines, lane };
-                // once more, so that it need not be kept until now where there are no units
-                let mut phi = rows::columns(rows, lane);
-                units.measure(&mut phi);
-                units.learn::<V::StreamVector, N>(&phi, outcome.codes);
-            }
-        }
-        part.offered[block] += 1;
-        if let Some(units) = &mut part.units {
-            report.count_unmeasured(&mut units.unmeasured[streams.clone()]);
-        }
-        used += report.write(part.unused, outputs, streams);
-    }
-    used
 }
 
 /// What the samples of a few streams brought.

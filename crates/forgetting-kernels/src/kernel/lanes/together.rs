@@ -3,8 +3,8 @@
 use super::few::{correct, State};
 use super::members::{lanes, Together};
 use super::{accepts, many, LaneOutcome};
-use crate::kernel::dispatch::Kernel;
-use crate::kernel::form::{shrink, Form};
+use crate::kernel::dispatch::{Dispatch, Kernel};
+use crate::kernel::form::{shrink, Form, SCALE, WALK};
 use crate::kernel::lanes::storage::{Layout, Line};
 use crate::kernel::layout::{COMPACT, FEW};
 use crate::kernel::registers::Small;
@@ -12,42 +12,68 @@ use crate::kernel::vectors::few_products;
 use crate::number::vector::{StreamVector, Vector};
 use crate::number::Real;
 
-impl<T: Real> Kernel<T> for Together<'_, T> {
+/// Lets all of them take the samples: a kernel for each form, and for each number of few parameters.
+#[inline(always)]
+pub fn advance<T: Real, D: Dispatch<T>>(task: Together<'_, T>) -> usize {
+    match task.parameters {
+        _ if COMPACT => 0,
+        1..=FEW => with_few!(task.parameters, few::<T, D>(task)),
+        _ => D::run(Walks(task)),
+    }
+}
+
+#[inline(always)]
+fn few<T: Real, D: Dispatch<T>, const N: usize>(task: Together<'_, T>) -> usize {
+    match task.form {
+        Form::Walk { .. } => D::run(Few::<T, N, WALK>(task)),
+        _ => D::run(Few::<T, N, SCALE>(task)),
+    }
+}
+
+/// Estimators of `N` parameters that forget in one form.
+struct Few<'a, T: Real, const N: usize, const FORM: u8>(Together<'a, T>);
+
+impl<T: Real, const N: usize, const FORM: u8> Kernel<T> for Few<'_, T, N, FORM> {
     type Output = usize;
 
+    #[inline(always)]
+    fn size(&self) -> usize {
+        self.0.size()
+    }
+
+    #[inline(always)]
+    fn run<V: Vector<T>, const GROUP: usize>(mut self) -> usize {
+        take_all::<T, V::StreamVector, N, FORM>(&mut self.0)
+    }
+}
+
+/// Estimators of more than ten parameters that walk.
+struct Walks<'a, T: Real>(Together<'a, T>);
+
+impl<T: Real> Kernel<T> for Walks<'_, T> {
+    type Output = usize;
+
+    #[inline(always)]
+    fn size(&self) -> usize {
+        self.0.size()
+    }
+
+    #[inline(always)]
+    fn run<V: Vector<T>, const GROUP: usize>(mut self) -> usize {
+        many::walk::advance::<T, V::StreamVector>(&mut self.0)
+    }
+}
+
+impl<T: Real> Together<'_, T> {
     /// Side by side, they are one large problem.
     #[inline(always)]
     fn size(&self) -> usize {
         Line::<T>::LANES * self.parameters * self.count
     }
-
-    #[inline(always)]
-    fn run<V: Vector<T>, const GROUP: usize>(mut self) -> usize {
-        match self.form {
-            _ if COMPACT => 0,
-            Form::Walk { .. } if self.parameters > FEW => {
-                many::walk::advance::<T, V::StreamVector>(&mut self)
-            }
-            Form::Walk { .. } => {
-                with_few!(self.parameters, walks::<T, V>(&mut self))
-            }
-            _ => with_few!(self.parameters, scales::<T, V>(&mut self)),
-        }
-    }
 }
 
 #[inline(always)]
-fn walks<T: Real, V: Vector<T>, const N: usize>(task: &mut Together<'_, T>) -> usize {
-    advance::<T, V::StreamVector, N, true>(task)
-}
-
-#[inline(always)]
-fn scales<T: Real, V: Vector<T>, const N: usize>(task: &mut Together<'_, T>) -> usize {
-    advance::<T, V::StreamVector, N, false>(task)
-}
-
-#[inline(always)]
-fn advance<T: Real, A: StreamVector<T>, const N: usize, const WALK: bool>(
+fn take_all<T: Real, A: StreamVector<T>, const N: usize, const FORM: u8>(
     task: &mut Together<'_, T>,
 ) -> usize {
     let (layout, phi) = (const { Layout::new(N) }, task.phi.as_chunks::<N>().0);
@@ -55,7 +81,7 @@ fn advance<T: Real, A: StreamVector<T>, const N: usize, const WALK: bool>(
     let samples = phi.len().min(task.y.len());
     for k in 0..samples {
         let sample = (A::splat_each(&phi[k]), A::splat(task.y[k]));
-        if !all_fit::<T, A, N, WALK>(task, &sample) {
+        if !all_fit::<T, A, N, FORM>(task, &sample) {
             return k;
         }
         for block in 0..blocks {
@@ -63,9 +89,9 @@ fn advance<T: Real, A: StreamVector<T>, const N: usize, const WALK: bool>(
             let outputs = k * blocks + block;
             for lane in lanes::<T, A>(task.count, block) {
                 let strength = A::read(&task.strengths[block].0.as_ref()[lane..]);
-                let form = growth::<T, A, WALK>(task.form, strength);
+                let form = growth::<T, A, FORM>(task.form, strength);
                 let state = State::<T, A, N>::of(&mut *lines, lane);
-                let (outcome, largest) = take::<T, A, N, WALK>(state, form, &sample);
+                let (outcome, largest) = take::<T, A, N, FORM>(state, form, &sample);
                 let at = outputs * Line::<T>::LANES + lane;
                 largest.write(&mut task.largest[at..]);
                 outcome.error.write(&mut task.errors[at..]);
@@ -83,9 +109,11 @@ fn advance<T: Real, A: StreamVector<T>, const N: usize, const WALK: bool>(
 
 /// What P is multiplied with, and the variance that is added.
 #[inline(always)]
-fn growth<T: Real, A: StreamVector<T>, const WALK: bool>(form: Form<T>, strength: A) -> (A, A) {
+fn growth<T: Real, A: StreamVector<T>, const FORM: u8>(form: Form<T>, strength: A) -> (A, A) {
     match form {
-        Form::Walk { per_bound, .. } if WALK => (shrink(strength, A::splat(per_bound)), strength),
+        Form::Walk { per_bound, .. } if FORM == WALK => {
+            (shrink(strength, A::splat(per_bound)), strength)
+        }
         _ => (strength, A::splat(T::ZERO)),
     }
 }
@@ -98,7 +126,7 @@ fn grown<T: Real, A: StreamVector<T>, const N: usize>(bound: A, (growth, noise):
 
 /// Whether each of them can take the sample.
 #[inline(always)]
-fn all_fit<T: Real, A: StreamVector<T>, const N: usize, const WALK: bool>(
+fn all_fit<T: Real, A: StreamVector<T>, const N: usize, const FORM: u8>(
     task: &mut Together<'_, T>,
     (f, y): &([A; N], A),
 ) -> bool {
@@ -108,7 +136,7 @@ fn all_fit<T: Real, A: StreamVector<T>, const N: usize, const WALK: bool>(
         let lines = &mut task.lines[block * layout.length()..(block + 1) * layout.length()];
         for lane in lanes::<T, A>(task.count, block) {
             let strength = A::read(&task.strengths[block].0.as_ref()[lane..]);
-            let form = growth::<T, A, WALK>(task.form, strength);
+            let form = growth::<T, A, FORM>(task.form, strength);
             let state = State::<T, A, N>::of(&mut *lines, lane);
             let (product, squares) = few_products(f, &state.several(layout.theta()));
             let room = grown::<T, A, N>(state.read(layout.bound()), form);
@@ -121,7 +149,7 @@ fn all_fit<T: Real, A: StreamVector<T>, const N: usize, const WALK: bool>(
 
 /// A sample for which there is room in all lanes; also the largest element of D after it.
 #[inline(always)]
-fn take<T: Real, A: StreamVector<T>, const N: usize, const WALK: bool>(
+fn take<T: Real, A: StreamVector<T>, const N: usize, const FORM: u8>(
     state: State<'_, T, A, N>,
     form: (A, A),
     (f, y): &([A; N], A),
@@ -132,7 +160,7 @@ fn take<T: Real, A: StreamVector<T>, const N: usize, const WALK: bool>(
     let bound = grown::<T, A, N>(state.read(layout.bound()), form);
     let d = state.several(layout.diagonal());
     let mut small = Small { u: state, d };
-    let gain = if WALK {
+    let gain = if FORM == WALK {
         small.walk(form.0, form.1);
         small.scale_and_measure::<T, true>(A::splat(T::ONE), f)
     } else {

@@ -1,30 +1,53 @@
 //! Measurements of more than ten parameters: sweeps over the tiles of U.
 
 use super::bounds::{adds, make_room};
-use super::Place;
+use super::{Measure, Place};
 use crate::kernel::along::Room;
 use crate::kernel::bierman::{self, largest};
-use crate::kernel::form::Form;
+use crate::kernel::dispatch::Kernel;
+use crate::kernel::form::{Form, ALONG, SCALE};
 use crate::kernel::measured::Measured;
 use crate::number::vector::Vector;
 use crate::number::Real;
 
+/// In one form.
+pub struct Many<'a, T, const FORM: u8>(pub Measure<'a, T>);
+
+impl<T: Real, const FORM: u8> Kernel<T> for Many<'_, T, FORM> {
+    type Output = Option<Measured<T>>;
+
+    #[inline(always)]
+    fn size(&self) -> usize {
+        self.0.f.len()
+    }
+
+    #[inline(always)]
+    fn run<V: Vector<T>, const GROUP: usize>(self) -> Option<Measured<T>> {
+        let Self(Measure { mut place, form, f, squares, theta, errors }) = self;
+        let measured = measure::<T, V, GROUP, FORM>(&mut place, form, f, squares)?;
+        Measure { place, form, f, squares, theta, errors }.correct::<V>(&measured);
+        Some(measured)
+    }
+}
+
 /// Forgets and measures, unless there is no room for P.
 #[inline(always)]
-pub fn measure<T: Real, V: Vector<T>, const GROUP: usize>(
+pub fn measure<T: Real, V: Vector<T>, const GROUP: usize, const FORM: u8>(
     place: &mut Place<'_, T>,
     form: Form<T>,
     f: &[T],
     squares: T,
 ) -> Option<Measured<T>> {
     let growth = match form {
-        Form::Scale { growth } => growth,
-        Form::Along { weight, .. } => match along::<T, V, GROUP>(place, weight, f, squares)? {
-            Some(measured) => return Some(measured),
-            None => T::ONE,
-        },
+        Form::Scale { growth } if FORM == SCALE => growth,
+        Form::Along { weight, .. } if FORM == ALONG => {
+            match along::<T, V, GROUP>(place, weight, f, squares)? {
+                Some(measured) => return Some(measured),
+                None => T::ONE,
+            }
+        }
         // of few parameters only
-        Form::Walk { .. } => return None,
+        _ => return None,
     };
     make_room(place.bound, growth, T::ZERO)?;
     Some(scale::<T, V, GROUP>(place, growth, f))

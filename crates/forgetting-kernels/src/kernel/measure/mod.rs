@@ -6,13 +6,15 @@ mod few;
 pub mod forms;
 pub mod many;
 
-use super::layout::FEW;
+use super::layout::{COMPACT, FEW};
 use super::vectors::add_scaled_by;
-use crate::kernel::dispatch::Kernel;
-use crate::kernel::form::Form;
+use crate::kernel::dispatch::Dispatch;
+use crate::kernel::form::{Form, ALONG, SCALE, WALK};
 use crate::kernel::measured::Measured;
 use crate::number::vector::Vector;
 use crate::number::Real;
+use few::{AnyFew, Few};
+use many::Many;
 
 /// The factor and what goes with it.
 pub struct Place<'a, T> {
@@ -43,28 +45,38 @@ pub struct Measure<'a, T> {
     pub errors: &'a [T],
 }
 
-impl<T: Real> Kernel<T> for Measure<'_, T> {
-    type Output = Option<Measured<T>>;
-
-    #[inline(always)]
-    fn size(&self) -> usize {
-        self.f.len()
+/// Does it: a kernel for each form, and for each number of few parameters.
+#[inline(always)]
+pub fn measure<T: Real, D: Dispatch<T>>(task: Measure<'_, T>) -> Option<Measured<T>> {
+    match task.f.len() {
+        1..=FEW if COMPACT => D::run(AnyFew(task)),
+        1..=FEW => with_few!(task.f.len(), few::<T, D>(task)),
+        _ => match task.form {
+            Form::Scale { .. } => D::run(Many::<T, SCALE>(task)),
+            Form::Along { .. } => D::run(Many::<T, ALONG>(task)),
+            // of few parameters only
+            Form::Walk { .. } => None,
+        },
     }
+}
 
+#[inline(always)]
+fn few<T: Real, D: Dispatch<T>, const N: usize>(task: Measure<'_, T>) -> Option<Measured<T>> {
+    match task.form {
+        Form::Scale { .. } => D::run(Few::<T, N, SCALE>(task)),
+        Form::Along { .. } => D::run(Few::<T, N, ALONG>(task)),
+        Form::Walk { .. } => D::run(Few::<T, N, WALK>(task)),
+    }
+}
+
+impl<T: Real> Measure<'_, T> {
+    /// θ ← θ + P·fᵀe, once P·fᵀ is known.
     #[inline(always)]
-    fn run<V: Vector<T>, const GROUP: usize>(mut self) -> Option<Measured<T>> {
+    fn correct<V: Vector<T>>(self, measured: &Measured<T>) {
         let n = self.f.len();
-        let Self { ref mut place, form, f, squares, .. } = self;
-        // wide vectors are for many: without this they would be compiled for few, too
-        let measured = if GROUP < 8 && n <= FEW {
-            few::measure::<T, V>(place, form, f, squares)?
-        } else {
-            many::measure::<T, V, GROUP>(place, form, f, squares)?
-        };
         for (target, theta) in self.theta.chunks_exact_mut(n).enumerate() {
-            let error = self.errors[target];
-            add_scaled_by::<T, V>(theta, error * measured.inverse_variance, &place.scratch[..n]);
+            let step = self.errors[target] * measured.inverse_variance;
+            add_scaled_by::<T, V>(theta, step, &self.place.scratch[..n]);
         }
-        Some(measured)
     }
 }

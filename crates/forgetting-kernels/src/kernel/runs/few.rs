@@ -8,15 +8,10 @@ use super::super::registers::{InPlace, Small, Unit};
 use super::super::vectors::few_products;
 use super::{accepts, Steps};
 use crate::kernel::dispatch::Kernel;
-use crate::kernel::form::{shrink, Form};
+use crate::kernel::form::{shrink, Form, ALONG, SCALE, WALK};
 use crate::number::lane::One;
 use crate::number::vector::{StreamVector, Vector};
 use crate::number::Real;
-
-/// Which form of forgetting a kernel is for.
-pub const SCALE: u8 = 0;
-pub const ALONG: u8 = 1;
-pub const WALK: u8 = 2;
 
 /// Takes samples of `N` parameters that forget in one form.
 pub struct Few<'a, 'b, T, const N: usize, const FORM: u8>(pub &'b mut Steps<'a, T>);

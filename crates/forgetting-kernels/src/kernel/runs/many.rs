@@ -12,15 +12,15 @@ use super::super::triangle::leverage_of;
 use super::super::vectors::{add_scaled_by, products};
 use super::{accepts, Steps};
 use crate::kernel::dispatch::Kernel;
-use crate::kernel::form::Form;
+use crate::kernel::form::{Form, ALONG, SCALE};
 use crate::kernel::measured::Measured;
 use crate::number::vector::Vector;
 use crate::number::Real;
 
-/// Takes samples.
-pub struct Many<'a, 'b, T>(pub &'b mut Steps<'a, T>);
+/// Takes samples that forget in one form.
+pub struct Many<'a, 'b, T, const FORM: u8>(pub &'b mut Steps<'a, T>);
 
-impl<T: Real> Kernel<T> for Many<'_, '_, T> {
+impl<T: Real, const FORM: u8> Kernel<T> for Many<'_, '_, T, FORM> {
     type Output = usize;
 
     #[inline(always)]
@@ -30,7 +30,7 @@ impl<T: Real> Kernel<T> for Many<'_, '_, T> {
 
     #[inline(always)]
     fn run<V: Vector<T>, const GROUP: usize>(self) -> usize {
-        all::<T, V, GROUP>(self.0)
+        all::<T, V, GROUP, FORM>(self.0)
     }
 }
 
@@ -39,21 +39,23 @@ impl<T: Real> Kernel<T> for Many<'_, '_, T> {
 /// No closures hold what is long: they would be functions of their own, without the instructions
 /// that this one may use.
 #[inline(always)]
-fn all<T: Real, V: Vector<T>, const GROUP: usize>(task: &mut Steps<'_, T>) -> usize {
+fn all<T: Real, V: Vector<T>, const GROUP: usize, const FORM: u8>(
+    task: &mut Steps<'_, T>,
+) -> usize {
     let (most, mut taken) = (task.outcomes.len().min(task.y.len()), 0);
     while taken < most {
         let several = match task.form {
-            Form::Scale { growth } if most - taken >= BATCH => {
+            Form::Scale { growth } if FORM == SCALE && most - taken >= BATCH => {
                 batches::<T, V, GROUP>(task, taken, growth)
             }
-            Form::Along { weight, .. } if most - taken >= 2 => {
+            Form::Along { weight, .. } if FORM == ALONG && most - taken >= 2 => {
                 two::<T, V, GROUP>(task, taken, weight)
             }
             _ => None,
         };
         taken += match several {
             Some(count) => count,
-            None => match single::<T, V, GROUP>(task, taken) {
+            None => match single::<T, V, GROUP, FORM>(task, taken) {
                 Some(()) => 1,
                 None => break,
             },
@@ -64,7 +66,7 @@ fn all<T: Real, V: Vector<T>, const GROUP: usize>(task: &mut Steps<'_, T>) -> us
 
 /// The sample at `at`, if it is one to take.
 #[inline(always)]
-fn single<T: Real, V: Vector<T>, const GROUP: usize>(
+fn single<T: Real, V: Vector<T>, const GROUP: usize, const FORM: u8>(
     task: &mut Steps<'_, T>,
     at: usize,
 ) -> Option<()> {
@@ -76,13 +78,13 @@ fn single<T: Real, V: Vector<T>, const GROUP: usize>(
     if !accepts(error, squares) {
         return None;
     }
-    if form.leaves_out(squares) {
+    if FORM == ALONG && form.leaves_out(squares) {
         let leverage = leverage_of::<T, V, GROUP>(place.columns, place.diagonal, f);
         let largest = largest(place.diagonal);
         outcomes[at] =
             Outcome { error, leverage, largest, forgot: false, used: false, windup: false };
     } else {
-        let measured = measure::<T, V, GROUP>(place, *form, f, squares)?;
+        let measured = measure::<T, V, GROUP, FORM>(place, *form, f, squares)?;
         add_scaled_by::<T, V>(theta, error * measured.inverse_variance, &place.scratch[..n]);
         outcomes[at] = Outcome::used(error, &measured);
     }

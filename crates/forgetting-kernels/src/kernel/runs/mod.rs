@@ -8,10 +8,10 @@ use super::dispatch::Dispatch;
 use super::layout::{COMPACT, FEW};
 use super::measure::Place;
 use super::outcome::Outcome;
-use crate::kernel::form::Form;
+use crate::kernel::form::{Form, ALONG, SCALE, WALK};
 use crate::number::Real;
 pub(super) use few::left_out;
-use few::{Few, ALONG, SCALE, WALK};
+use few::Few;
 use many::Many;
 
 /// Samples, and what takes them.
@@ -39,7 +39,7 @@ pub fn advance<T: Real, D: Dispatch<T>>(steps: &mut Steps<'_, T>) -> usize {
     match steps.theta.len() {
         _ if COMPACT => 0,
         1..=FEW => with_few!(steps.theta.len(), few::<T, D>(steps)),
-        _ => D::run(Many(steps)),
+        _ => many::<T, D>(steps),
     }
 }
 
@@ -50,6 +50,16 @@ fn few<T: Real, D: Dispatch<T>, const N: usize>(steps: &mut Steps<'_, T>) -> usi
         Form::Scale { .. } => D::run(Few::<T, N, SCALE>(steps)),
         Form::Along { .. } => D::run(Few::<T, N, ALONG>(steps)),
         Form::Walk { .. } => D::run(Few::<T, N, WALK>(steps)),
+    }
+}
+
+#[inline(always)]
+fn many<T: Real, D: Dispatch<T>>(steps: &mut Steps<'_, T>) -> usize {
+    match steps.form {
+        Form::Scale { .. } => D::run(Many::<T, SCALE>(steps)),
+        Form::Along { .. } => D::run(Many::<T, ALONG>(steps)),
+        // of few parameters only
+        Form::Walk { .. } => 0,
     }
 }
 

@@ -3,7 +3,10 @@
 
 use super::{accepts, adds, make_room, report, rows, Advance, Fate, Form, Line, StreamVector};
 use super::{LaneOutcome, Real, Trace};
+use crate::kernel::dispatch::Kernel;
+use crate::kernel::form::ALONG;
 use crate::kernel::lanes::storage::Layout;
+use crate::number::vector::Vector;
 use chain::Measured;
 use core::marker::PhantomData;
 use group::{in_groups, in_groups_from_the_last, Group};
@@ -17,9 +20,26 @@ mod work;
 
 pub use work::SCRATCH;
 
+/// Takes samples that forget in one form.
+pub struct Many<'a, 's, 'o, T: Real, const FORM: u8>(pub Advance<'a, 's, 'o, T>);
+
+impl<T: Real, const FORM: u8> Kernel<T> for Many<'_, '_, '_, T, FORM> {
+    type Output = usize;
+
+    #[inline(always)]
+    fn size(&self) -> usize {
+        self.0.size()
+    }
+
+    #[inline(always)]
+    fn run<V: Vector<T>, const GROUP: usize>(self) -> usize {
+        advance::<T, V::StreamVector, FORM>(self.0)
+    }
+}
+
 /// Goes through the blocks.
 #[inline(always)]
-pub fn advance<T: Real, A: StreamVector<T>>(task: &mut Advance<'_, '_, '_, T>) -> usize {
+fn advance<T: Real, A: StreamVector<T>, const FORM: u8>(task: Advance<'_, '_, '_, T>) -> usize {
     let Advance { streams: part, samples, outputs } = task;
     let (n, lanes, last) = (part.n, Line::<T>::LANES, part.strengths.len() - 1);
     let with_leverage = outputs.leverage.is_some();
@@ -30,14 +50,14 @@ pub fn advance<T: Real, A: StreamVector<T>>(task: &mut Advance<'_, '_, '_, T>) -
         let lines = &mut part.lines[block * length..(block + 1) * length];
         let streams = block * lanes..block * lanes + phi.len() / n;
         let strength = part.strengths[block.min(last)].0.as_ref();
-        let y = rows::outputs(samples, streams.clone());
+        let y = rows::outputs(&samples, streams.clone());
         let mut report = report::Report::new();
         for lane in (0..lanes).step_by(A::COUNT) {
             work.regressors::<A>(phi, lane);
             let mut columns = Columns::of(lines, lane, n);
             let how = (part.form, A::read(&strength[lane..]));
             let y = A::read(&y.0.as_ref()[lane..]);
-            report.note(lane, &columns.take(&mut work, how, y, with_leverage));
+            report.note(lane, &columns.take::<FORM>(&mut work, how, y, with_leverage));
         }
         part.offered[block] += 1;
         used += report.write(part.unused, outputs, streams);
@@ -114,7 +134,7 @@ impl<'a, T: Real, A: StreamVector<T>> Columns<'a, T, A> {
 
     /// Takes a sample of each stream.
     #[inline(always)]
-    fn take(
+    fn take<const FORM: u8>(
         &mut self,
         work: &mut Work<'_, T>,
         (form, strength): (Form<T>, A),
@@ -126,15 +146,12 @@ impl<'a, T: Real, A: StreamVector<T>> Columns<'a, T, A> {
         let error = y - product;
         let accepted = accepts(error, squares);
         let (used, mut growth, (mut c, mut t), grown) = match form {
-            // a walk is of few parameters only
-            Form::Scale { .. } | Form::Walk { .. } => {
-                (accepted, strength, (zero, one), (strength, zero))
-            }
-            Form::Along { dead_zone, .. } => {
+            Form::Along { dead_zone, .. } if FORM == ALONG => {
                 let added @ (c, _) = self.look(work, strength);
                 let used = A::both(accepted, dead_zone.leaves(squares));
                 (used, one, added, (one, c * squares))
             }
+            _ => (accepted, strength, (zero, one), (strength, zero)),
         };
         let bound = read(self.bound, self.lane);
         let (next, room) = make_room(bound, grown, self);
@@ -153,9 +170,9 @@ impl<'a, T: Real, A: StreamVector<T>> Columns<'a, T, A> {
             (c, t) = (A::select(used, c, zero), A::select(used, t, one));
             work.leave_out::<A>(used);
         }
-        let measured = match form {
-            Form::Scale { .. } | Form::Walk { .. } => self.scale(work, growth),
-            Form::Along { .. } => self.widen(work, (c, t)),
+        let measured = match FORM {
+            ALONG => self.widen(work, (c, t)),
+            _ => self.scale(work, growth),
         };
         let step = A::select(used, error * measured.inverse_a, -zero);
         self.correct(work, step);
