@@ -32,7 +32,9 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check -q
 # Optimized, but quicker to build than a wheel: see Cargo.toml.
 PROFILE := fast
-DEVELOP = . $(BIN)/activate && maturin develop --quiet
+# cargo has jobs of its own: rustdoc warns of those of `make -j` that it cannot join
+CARGO := env -u MAKEFLAGS cargo
+DEVELOP = . $(BIN)/activate && PIP_QUIET=1 maturin develop --quiet
 # Two records inside wheels. Their own dependencies clash with ours and are not needed to read them, so
 # they lie in a folder of their own, which only what reads them is shown.
 SHIPPED := pvanalytics==0.2.2 sweat==0.25.0
@@ -57,18 +59,18 @@ demo: $(VENV)/records
 test: lint rust python
 
 lint: build
-	cargo fmt --all --check
-	cargo clippy --workspace --all-targets --quiet -- -D warnings
-	cargo clippy --package forgetting --no-default-features --quiet -- -D warnings
-	cargo clippy --package forgetting --features serde --quiet -- -D warnings
-	cargo clippy --package forgetting-c --features general --quiet -- -D warnings
+	$(CARGO) fmt --all --check
+	$(CARGO) clippy --workspace --all-targets --quiet -- -D warnings
+	$(CARGO) clippy --package forgetting --no-default-features --quiet -- -D warnings
+	$(CARGO) clippy --package forgetting --features serde --quiet -- -D warnings
+	$(CARGO) clippy --package forgetting-c --features general --quiet -- -D warnings
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 
 rust:
-	cargo test --workspace --exclude forgetting-py --exclude forgetting-wasm --profile $(PROFILE) --quiet
-	cargo test --package forgetting --features serde --test serde --profile $(PROFILE) --quiet
+	$(CARGO) test --workspace --exclude forgetting-py --exclude forgetting-wasm --profile $(PROFILE) --quiet
+	$(CARGO) test --package forgetting --features serde --test serde --profile $(PROFILE) --quiet
 
 # one thread of BLAS for each process: as many as there are cores in each only wait for one another
 python: build
@@ -93,9 +95,9 @@ $(VENV)/ready: pyproject.toml $(VENV)/records
 # the oldest Rust that is promised
 OLDEST := $(shell sed -n 's/^rust-version = "\(.*\)"/\1/p' Cargo.toml)
 crates:
-	cargo publish --workspace --exclude forgetting-py --dry-run --no-verify --allow-dirty
+	$(CARGO) publish --workspace --exclude forgetting-py --dry-run --no-verify --allow-dirty
 	if rustup toolchain install $(OLDEST) --profile minimal --no-self-update >/dev/null 2>&1; then \
-	    cargo +$(OLDEST) check --quiet --package forgetting --features forgetting/serde \
+	    $(CARGO) +$(OLDEST) check --quiet --package forgetting --features forgetting/serde \
 	        --package forgetting-runtime --package forgetting-c --features forgetting-c/general; \
 	    else echo "crates: not compiled with Rust $(OLDEST), which rustup cannot get here"; fi
 
@@ -118,12 +120,12 @@ $(SPARK)/ready: tests/spark/requirements.txt
 	touch $@
 
 fuzz: build
-	FUZZ_SECONDS=$(FUZZ_SECONDS) FUZZ_SEED=$$(date +%s) cargo test --package forgetting --profile $(PROFILE) \
+	FUZZ_SECONDS=$(FUZZ_SECONDS) FUZZ_SEED=$$(date +%s) $(CARGO) test --package forgetting --profile $(PROFILE) \
 	    --test fuzz --quiet -- --nocapture
 	FUZZ_SECONDS=$(FUZZ_SECONDS) FUZZ_SEED=$$(date +%s) $(BIN)/pytest -s tests/fuzz
 
 soak:
-	SOAK_STEPS=$(SOAK_STEPS) SOAK_FOLDER=$(SOAK_FOLDER) SOAK_ONLY=$(SOAK_ONLY) cargo test --package forgetting \
+	SOAK_STEPS=$(SOAK_STEPS) SOAK_FOLDER=$(SOAK_FOLDER) SOAK_ONLY=$(SOAK_ONLY) $(CARGO) test --package forgetting \
 	    --profile $(PROFILE) --test soak --quiet -- --nocapture
 
 stubs: build
@@ -176,5 +178,5 @@ bench-full: $(VENV)/ready
 	$(WITH_RECORDS) $(BIN)/python -m benchmarks
 
 clean:
-	cargo clean
+	$(CARGO) clean
 	rm -rf $(VENV) $(SPARK) demo build

@@ -1,7 +1,7 @@
 //! The diagonal of P, and its sum.
 
 use super::copies::put_first;
-use super::layout::{place, FEW};
+use super::layout::{place, COMPACT, FEW};
 use crate::kernel::dispatch::Kernel;
 use crate::number::vector::Vector;
 use crate::number::Real;
@@ -59,6 +59,7 @@ impl<T: Real> Kernel<T> for Trace<'_, T> {
     #[inline(always)]
     fn run<V: Vector<T>, const GROUP: usize>(self) -> T {
         match self.diagonal.len() {
+            _ if COMPACT => self.of_few(),
             0..=FEW => self.of_few(),
             _ => self.of_many::<V>(),
         }
@@ -66,7 +67,8 @@ impl<T: Real> Kernel<T> for Trace<'_, T> {
 }
 
 impl<T: Real> Trace<'_, T> {
-    /// In the order of [`Small::trace`](crate::kernel::registers::Small::trace).
+    /// In the order of [`Small::trace`](crate::kernel::registers::Small::trace); also of many, where programs are
+    /// to be small.
     #[inline(always)]
     fn of_few(self) -> T {
         let mut trace = T::ZERO;

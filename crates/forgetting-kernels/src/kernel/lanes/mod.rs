@@ -39,7 +39,7 @@ pub struct Advance<'a, 's, 'o, T: Real> {
     pub outputs: &'a mut Outputs<'o, T>,
 }
 
-/// Does it: a kernel for each form, and for each number of few parameters.
+/// Takes the samples: a kernel for each form, and for each number of few parameters.
 #[inline(always)]
 pub fn advance<T: Real, D: Dispatch<T>>(task: Advance<'_, '_, '_, T>) -> usize {
     match task.streams.n {

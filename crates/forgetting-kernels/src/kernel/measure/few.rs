@@ -34,37 +34,23 @@ impl<T: Real, const N: usize, const FORM: u8> Kernel<T> for Few<'_, T, N, FORM> 
     }
 }
 
-/// In any form, of any of these numbers of parameters: for programs that are to be small.
-pub struct AnyFew<'a, T>(pub Measure<'a, T>);
-
-impl<T: Real> Kernel<T> for AnyFew<'_, T> {
-    type Output = Option<Measured<T>>;
-
-    #[inline(always)]
-    fn size(&self) -> usize {
-        self.0.f.len()
-    }
-
-    #[inline(always)]
-    fn run<V: Vector<T>, const GROUP: usize>(mut self) -> Option<Measured<T>> {
-        let measured = of_any::<T, V>(&mut self.0)?;
-        self.0.correct::<V>(&measured);
-        Some(measured)
-    }
-}
-
+/// In any form, of any of these numbers of parameters, unless there is no room for P.
 #[inline(always)]
-fn of_any<T: Real, V: Vector<T>>(task: &mut Measure<'_, T>) -> Option<Measured<T>> {
-    let Measure { place: Place { columns, diagonal, scratch, bound }, form, f, squares, .. } = task;
+pub(super) fn measure_any<T: Real, V: Vector<T>>(
+    Place { columns, diagonal, scratch, bound }: &mut Place<'_, T>,
+    form: Form<T>,
+    f: &[T],
+    squares: T,
+) -> Option<Measured<T>> {
     let (n, mut padded, mut d) = (f.len(), [T::ZERO; FEW], [T::ONE; FEW]);
     copy_some(&mut padded, f);
     copy_some(&mut d, diagonal);
     let mut small = Small { u: InPlace::of_some(columns, n), d };
-    let sample = (&padded, *squares);
+    let sample = (&padded, squares);
     let (gain, forgot) = match form {
-        Form::Scale { .. } => gain::<T, V, FEW, SCALE>(&mut small, bound, *form, sample),
-        Form::Along { .. } => gain::<T, V, FEW, ALONG>(&mut small, bound, *form, sample),
-        Form::Walk { .. } => gain::<T, V, FEW, WALK>(&mut small, bound, *form, sample),
+        Form::Scale { .. } => gain::<T, V, FEW, SCALE>(&mut small, bound, form, sample),
+        Form::Along { .. } => gain::<T, V, FEW, ALONG>(&mut small, bound, form, sample),
+        Form::Walk { .. } => gain::<T, V, FEW, WALK>(&mut small, bound, form, sample),
     }?;
     diagonal.copy_from_slice(&small.d[..n]);
     scratch[..n].copy_from_slice(&gain.k[..n]);

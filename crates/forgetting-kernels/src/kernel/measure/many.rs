@@ -5,15 +5,15 @@ use super::{Measure, Place};
 use crate::kernel::along::Room;
 use crate::kernel::bierman::{self, largest};
 use crate::kernel::dispatch::Kernel;
-use crate::kernel::form::{Form, ALONG, SCALE};
+use crate::kernel::form::Form;
 use crate::kernel::measured::Measured;
 use crate::number::vector::Vector;
 use crate::number::Real;
 
-/// In one form.
-pub struct Many<'a, T, const FORM: u8>(pub Measure<'a, T>);
+/// In any form.
+pub struct Many<'a, T>(pub Measure<'a, T>);
 
-impl<T: Real, const FORM: u8> Kernel<T> for Many<'_, T, FORM> {
+impl<T: Real> Kernel<T> for Many<'_, T> {
     type Output = Option<Measured<T>>;
 
     #[inline(always)]
@@ -22,32 +22,30 @@ impl<T: Real, const FORM: u8> Kernel<T> for Many<'_, T, FORM> {
     }
 
     #[inline(always)]
-    fn run<V: Vector<T>, const GROUP: usize>(self) -> Option<Measured<T>> {
-        let Self(Measure { mut place, form, f, squares, theta, errors }) = self;
-        let measured = measure::<T, V, GROUP, FORM>(&mut place, form, f, squares)?;
-        Measure { place, form, f, squares, theta, errors }.correct::<V>(&measured);
+    fn run<V: Vector<T>, const GROUP: usize>(mut self) -> Option<Measured<T>> {
+        let Measure { ref mut place, form, f, squares, .. } = self.0;
+        let measured = measure::<T, V, GROUP>(place, form, f, squares)?;
+        self.0.correct::<V>(&measured);
         Some(measured)
     }
 }
 
 /// Forgets and measures, unless there is no room for P.
 #[inline(always)]
-pub fn measure<T: Real, V: Vector<T>, const GROUP: usize, const FORM: u8>(
+pub fn measure<T: Real, V: Vector<T>, const GROUP: usize>(
     place: &mut Place<'_, T>,
     form: Form<T>,
     f: &[T],
     squares: T,
 ) -> Option<Measured<T>> {
     let growth = match form {
-        Form::Scale { growth } if FORM == SCALE => growth,
-        Form::Along { weight, .. } if FORM == ALONG => {
-            match along::<T, V, GROUP>(place, weight, f, squares)? {
-                Some(measured) => return Some(measured),
-                None => T::ONE,
-            }
-        }
+        Form::Scale { growth } => growth,
+        Form::Along { weight, .. } => match along::<T, V, GROUP>(place, weight, f, squares)? {
+            Some(measured) => return Some(measured),
+            None => T::ONE,
+        },
         // of few parameters only
-        _ => return None,
+        Form::Walk { .. } => return None,
     };
     make_room(place.bound, growth, T::ZERO)?;
     Some(scale::<T, V, GROUP>(place, growth, f))

@@ -8,12 +8,12 @@ pub mod many;
 
 use super::layout::{COMPACT, FEW};
 use super::vectors::add_scaled_by;
-use crate::kernel::dispatch::Dispatch;
+use crate::kernel::dispatch::{Dispatch, Kernel};
 use crate::kernel::form::{Form, ALONG, SCALE, WALK};
 use crate::kernel::measured::Measured;
 use crate::number::vector::Vector;
 use crate::number::Real;
-use few::{AnyFew, Few};
+use few::Few;
 use many::Many;
 
 /// The factor and what goes with it.
@@ -45,18 +45,13 @@ pub struct Measure<'a, T> {
     pub errors: &'a [T],
 }
 
-/// Does it: a kernel for each form, and for each number of few parameters.
+/// Measures: of few parameters with a kernel for each form and each number of them.
 #[inline(always)]
 pub fn measure<T: Real, D: Dispatch<T>>(task: Measure<'_, T>) -> Option<Measured<T>> {
     match task.f.len() {
-        1..=FEW if COMPACT => D::run(AnyFew(task)),
+        _ if COMPACT => D::run(Any(task)),
         1..=FEW => with_few!(task.f.len(), few::<T, D>(task)),
-        _ => match task.form {
-            Form::Scale { .. } => D::run(Many::<T, SCALE>(task)),
-            Form::Along { .. } => D::run(Many::<T, ALONG>(task)),
-            // of few parameters only
-            Form::Walk { .. } => None,
-        },
+        _ => D::run(Many(task)),
     }
 }
 
@@ -66,6 +61,29 @@ fn few<T: Real, D: Dispatch<T>, const N: usize>(task: Measure<'_, T>) -> Option<
         Form::Scale { .. } => D::run(Few::<T, N, SCALE>(task)),
         Form::Along { .. } => D::run(Few::<T, N, ALONG>(task)),
         Form::Walk { .. } => D::run(Few::<T, N, WALK>(task)),
+    }
+}
+
+/// In any form, of any number of parameters: for programs that are to be small.
+struct Any<'a, T>(Measure<'a, T>);
+
+impl<T: Real> Kernel<T> for Any<'_, T> {
+    type Output = Option<Measured<T>>;
+
+    #[inline(always)]
+    fn size(&self) -> usize {
+        self.0.f.len()
+    }
+
+    #[inline(always)]
+    fn run<V: Vector<T>, const GROUP: usize>(mut self) -> Option<Measured<T>> {
+        let Measure { ref mut place, form, f, squares, .. } = self.0;
+        let measured = match f.len() {
+            1..=FEW => few::measure_any::<T, V>(place, form, f, squares)?,
+            _ => many::measure::<T, V, GROUP>(place, form, f, squares)?,
+        };
+        self.0.correct::<V>(&measured);
+        Some(measured)
     }
 }
 

@@ -84,7 +84,7 @@ fn single<T: Real, V: Vector<T>, const GROUP: usize, const FORM: u8>(
         outcomes[at] =
             Outcome { error, leverage, largest, forgot: false, used: false, windup: false };
     } else {
-        let measured = measure::<T, V, GROUP, FORM>(place, *form, f, squares)?;
+        let measured = measure::<T, V, GROUP>(place, *form, f, squares)?;
         add_scaled_by::<T, V>(theta, error * measured.inverse_variance, &place.scratch[..n]);
         outcomes[at] = Outcome::used(error, &measured);
     }
