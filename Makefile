@@ -33,7 +33,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check -q
 # Optimized, but quicker to build than a wheel: see Cargo.toml.
 PROFILE := fast
 # cargo has jobs of its own: rustdoc warns of those of `make -j` that it cannot join
-CARGO := env -u MAKEFLAGS cargo
+CARGO := env -u MAKEFLAGS -u MFLAGS cargo
 DEVELOP = . $(BIN)/activate && PIP_QUIET=1 maturin develop --quiet
 # Two records inside wheels. Their own dependencies clash with ours and are not needed to read them, so
 # they lie in a folder of their own, which only what reads them is shown.
