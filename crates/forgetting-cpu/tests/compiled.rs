@@ -22,6 +22,8 @@ fn kernels<T: Kernels>() -> Vec<*const ()> {
         T::solve as *const (),
         T::multiply as *const (),
         T::multiply_transposed as *const (),
+        T::symmetric_multiply as *const (),
+        T::symmetric_subtract as *const (),
         T::variances as *const (),
         T::trace as *const (),
         T::advance as *const (),

@@ -70,8 +70,9 @@ fn columns<T: Real, V: Vector<T>, const C: usize>(
     product: &mut LongMut<'_, T>,
 ) {
     let mut sums = [V::splat(T::ZERO); C];
-    for (row, &x) in rows.chunks_exact(across).zip(x) {
-        let Some(row) = row[first..].first_chunk::<C>() else { return };
+    for (k, &x) in x.iter().enumerate() {
+        let Some(row) = rows.get(k * across + first..) else { return };
+        let Some(row) = row.first_chunk::<C>() else { return };
         let x = V::splat(x);
         for c in 0..C {
             sums[c] = x.mul_add(V::load(&row[c]), sums[c]);
@@ -105,7 +106,8 @@ impl<T: Real> Kernel<T> for SymmetricSubtract<'_, T> {
         let (rows, across) = (T::chunks_mut(self.matrix).0, self.x.len().div_ceil(T::ROWS));
         let (x, scale) = (Long::new(self.x), V::splat(self.scale));
         let (full, tail) = x.first(across);
-        for (row, &own) in rows.chunks_exact_mut(across).zip(self.x) {
+        for (k, &own) in self.x.iter().enumerate() {
+            let Some(row) = rows.get_mut(k * across..(k + 1) * across) else { return };
             let own = V::splat(-own);
             for c in 0..full.len().min(row.len()) {
                 own.mul_add(V::load(&full[c]), scale * V::load(&row[c])).store(&mut row[c]);
